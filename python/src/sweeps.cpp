@@ -55,6 +55,7 @@ SweepOutcome make_sweep(const std::string& command, const Keys& keys, const std:
     result.rows.push_back({i, std::move(row)});
   }
   result.status = reports.size() == all.size() ? "completed" : "interrupted";
+  if (const auto error = cli::why_nothing(result)) throw *error;  // as the program
   result.title = read_system(base, name).system.title;
   return made;
 }

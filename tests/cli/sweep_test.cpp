@@ -83,12 +83,20 @@ TEST(Sweep, GivesEveryCommandARowAValue) {
 
 TEST(Sweep, SaysWhyValuesHaveNoResult) {
   const Shell shell;
-  const Outcome o =
-      shell("$carom lyapunov stadium --trajectories 20 --sweep table.radius=list:1,2");
+  const std::string swept = "$carom lyapunov stadium --trajectories 20 --quiet --sweep run.t_max=";
+  const Outcome o = shell(swept + "list:20,2000,3000");
   ASSERT_EQ(o.status, 0) << o.err;
-  EXPECT_NE(o.out.find("table.radius = 1 and 1 more: all 20 particles ended before"),
+  EXPECT_NE(on_one_line(o.out).find("run.t_max = 2000: all 20 particles ended before"),
             std::string::npos)
       << o.out;
+  // Where no value has one, it ends as each of them alone does, and leaves no archive.
+  for (const char* archive : {"", " -o a.h5"}) {
+    const Outcome none = shell(swept + "list:2000,3000" + archive);
+    expect_refused(none, "command line: --sweep");
+    EXPECT_NE(none.err.find("run.t_max = 2000: all 20 particles ended"), std::string::npos)
+        << none.err;
+    EXPECT_TRUE(shell.files().empty());
+  }
 }
 
 TEST(Sweep, NamesWhatIsBadBeforeItComputes) {

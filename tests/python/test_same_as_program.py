@@ -43,7 +43,10 @@ def test_lyapunov(program):
 def test_nothing_to_measure_is_refused_as_by_the_program():
     with pytest.raises(carom.InputError, match="too few to keep populations alive"):
         carom.lyapunov("three-disc", trajectories=10)
-    assert carom.lyapunov("three-disc", trajectories=10, sweep={"run.seed": [1, 2]}).results[1].orbits == 0
+    with pytest.raises(carom.InputError, match="no value measures an exponent; run.seed = 1 and 1 more"):
+        carom.lyapunov("three-disc", trajectories=10, sweep={"run.seed": [1, 2]})
+    mixed = carom.lyapunov("stadium", trajectories=20, sweep={"run.t_max": [20, 2000]})
+    assert mixed.results[0].orbits > 0 == mixed.results[1].orbits
 
 
 @pytest.mark.parametrize(

@@ -121,12 +121,15 @@ bool Sweep::has_begun(std::size_t index) const {
   return io::exists(value) || has_checkpoint(value) || !io::parts_of_ranks(value).empty();
 }
 
-// A value whose command cannot go on is done where its report is there.
+// A value whose command cannot go on is done where its report is there. So is one that measured
+// nothing: its archive does not say why.
 bool Sweep::take_kept_report(std::size_t index) {
-  if (is_plain_ensemble(options_) || file_.empty()) return false;
+  if (file_.empty()) return false;
   const auto report = io::kept_report(file_, index);
   if (!report) return false;
-  result_.rows.push_back({index, Json::parse(*report, file_)});
+  SweepRow row{index, Json::parse(*report, file_)};
+  if (is_plain_ensemble(options_) && !row.measured_nothing()) return false;
+  result_.rows.push_back(std::move(row));
   return true;
 }
 
@@ -222,6 +225,10 @@ void Sweep::say_what_is_kept() {
 
 int Sweep::finish(int status) {
   result_.status = status_of(status != stopped);
+  if (const auto error = why_nothing(result_)) {
+    if (!file_.empty()) io::remove_sweep(file_);
+    throw *error;
+  }
   end_sweep(options_, result_, file_, before_);
   lock_.reset();
   if (status == stopped && !result_.archive.empty())

@@ -44,7 +44,8 @@ bool of_repeller(const LyapunovResult& result) {
 }
 
 // Why there is no exponent, as a phrase; "" where there is one.
-std::string no_exponent(const LyapunovResult& result) {
+std::string no_exponent(const System& system, const LyapunovResult& result) {
+  if (const auto error = why_nothing(system, result)) return error->problem();
   if (result.growth.totals().orbits > 0 || result.repeller) return {};
   if (result.trajectories == 0) return "no trajectory was followed";
   return fmt::format("all {} particles ended before t = {:.6g}, the end of the window",
@@ -230,7 +231,7 @@ Json result_json(const System& system, const LyapunovResult& result,
                  const EnsembleContext& context) {
   const GrowthSums& sums = result.growth;
   const LyapunovEstimate e = estimate_of(sums);
-  const std::string reason = no_exponent(result);
+  const std::string reason = no_exponent(system, result);
   Json json = ensemble_json(system, result, context);
   json.set("trajectories", result.trajectories).set("orbits", sums.totals().orbits);
   json.set("survived", result.survived);
@@ -285,7 +286,7 @@ std::string result_text(const System& system, const LyapunovResult& result,
   std::string text =
       doubts_of(system, result).text() +
       head_text(system, result.trajectories, sums.window().to, result.complete, context);
-  if (const std::string reason = no_exponent(result); !reason.empty()) {
+  if (const std::string reason = no_exponent(system, result); !reason.empty()) {
     text += folded("\nThere is no exponent: " + reason + ".") + '\n';
   } else if (of_repeller(result)) {
     text += repeller_text(*result.repeller);

@@ -188,13 +188,18 @@ std::string table(const SweepResult& result) {
   return aligned(columns);
 }
 
-// Why rows lack what a command is run for, each reason once.
-std::string reasons(const SweepResult& result) {
-  constexpr std::size_t most = 5;
-  struct Reason {
-    std::string text, first;
-    std::size_t rows;
-  };
+/// Why rows lack what a command is run for.
+struct Reason {
+  std::string text, first;
+  std::size_t rows;
+  std::string sentence() const {
+    return fmt::format("{}{}: {}", first, rows > 1 ? fmt::format(" and {} more", rows - 1) : "",
+                       text);
+  }
+};
+
+/// Each reason once.
+std::vector<Reason> reasons_of(const SweepResult& result) {
   std::vector<Reason> all;
   for (const SweepRow& row : result.rows)
     for (const char* path : {"reason", "fit.reason"}) {
@@ -208,12 +213,14 @@ std::string reasons(const SweepResult& result) {
       else
         all.push_back({text, named(result.plan, row.index), 1});
     }
+  return all;
+}
+
+std::string reasons(const SweepResult& result) {
+  constexpr std::size_t most = 5;
+  const std::vector<Reason> all = reasons_of(result);
   std::string text;
-  for (std::size_t i = 0; i < all.size() && i < most; ++i)
-    text += folded(fmt::format("{}{}: {}", all[i].first,
-                               all[i].rows > 1 ? fmt::format(" and {} more", all[i].rows - 1) : "",
-                               all[i].text)) +
-            "\n";
+  for (std::size_t i = 0; i < all.size() && i < most; ++i) text += folded(all[i].sentence()) + "\n";
   if (all.size() > most) text += fmt::format("and {} other reasons: --json\n", all.size() - most);
   return text;
 }
@@ -223,6 +230,23 @@ std::string reasons(const SweepResult& result) {
 std::string SweepRow::doubts() const {
   const Json* found = report.find("doubts");
   return found ? found->string().value_or("") : "";
+}
+
+// The other commands have a result also where their fit has none.
+bool SweepRow::measured_nothing() const {
+  const Json* const status = report.find("status");
+  return report.find("lambda") && report.find("reason") && doubts().empty() && status &&
+         status->string() == "completed";
+}
+
+std::optional<InputError> why_nothing(const SweepResult& result) {
+  if (result.rows.size() < result.plan.systems.size() ||
+      !std::all_of(result.rows.begin(), result.rows.end(),
+                   [](const SweepRow& row) { return row.measured_nothing(); }))
+    return std::nullopt;
+  return InputError(Place{"command line", 0, 0, "--sweep"},
+                    "no value measures an exponent; " + reasons_of(result).front().sentence(),
+                    "a value, --t-max, --window or --trajectories of which one can be measured");
 }
 
 std::vector<SweepColumn> sweep_table(const io::SweepPlan& plan, const std::vector<SweepRow>& rows) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "carom/base/error.hpp"
 #include "io/archive/sweep_archive.hpp"
 #include "io/json.hpp"
 
@@ -16,6 +17,8 @@ struct SweepRow {
   io::Json report;  ///< as the command prints it with --json, with `doubts` if there are any
   /// Why it cannot be trusted, a line each; "" if it can.
   std::string doubts() const;
+  /// Is it one that its command alone refuses after it was computed?
+  bool measured_nothing() const;
 };
 
 /// A sweep with what was computed of it.
@@ -39,6 +42,10 @@ std::vector<SweepColumn> sweep_table(const io::SweepPlan&, const std::vector<Swe
 /// The numbers of the same for archives: a row for each value of the plan, NaN where it was not
 /// computed.
 std::vector<io::SweepNumbers> sweep_numbers(const SweepResult&);
+
+/// The error of a sweep none of whose values measured what its command is run for: the command
+/// refuses each of them alone.
+std::optional<InputError> why_nothing(const SweepResult&);
 
 io::Json sweep_json(const SweepResult&);
 std::string sweep_text(const SweepResult&);
