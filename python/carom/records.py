@@ -41,57 +41,64 @@ def python_of(value):
     return value
 
 
+# What no key's values tell: counts, and texts that all rows may lack. Other numbers are float64, also
+# where all of them happen to be whole.
+_COUNTS = frozenset(
+    "n number count chaotic escaped collisions hits copies steps force_evaluations unresolved_steps"
+    " only_double only_certified descending neutral found first seed unresolved lost singular".split()
+)
+_TEXTS = frozenset(("failure", "reason"))
+
+
 def array_of(rows):
     """A list of objects with equal keys as a structured array, if they hold numbers, names and
     points; else as records."""
-    first = rows[0]
-    kinds = []
-    for key in first:
-        kind = _kind_of([row.get(key) for row in rows])
-        if kind is None:
-            return [Record(row) for row in rows]
-        kinds.append((key, *kind))
-    if any(row.keys() != first.keys() for row in rows):
+    if any(row.keys() != rows[0].keys() for row in rows):
         return [Record(row) for row in rows]
-    plain = [tuple(tuple(v) if isinstance(v, list) else v for v in row.values()) for row in rows]
-    return numpy.array(plain, dtype=kinds)
+    array = table_of(rows)
+    return array if len(array.dtype.names) == len(rows[0]) else [Record(row) for row in rows]
 
 
-def table_of(rows):
+def table_of(rows, unknown=()):
     """A list of objects as a structured array of numbers and names: what is missing, or null, is
-    not a number. Objects among the entries are left out."""
-    keys = list(dict.fromkeys(key for row in rows for key in row))
-    columns = {key: [row.get(key) for row in rows] for key in keys}
-    kinds = {}
-    for key, column in columns.items():
-        known = [one for one in column if one is not None]
-        kind = _kind_of(known) if known else ("f8",)
-        if kind is None or any(isinstance(one, dict) for one in known):
+    not a number. Objects among the entries are left out. `unknown`: flags that may be null, as 1, 0
+    or not a number."""
+    columns = columns_of(rows)
+    columns.update((key, (("f8",), columns[key][1])) for key in unknown)
+    dtype = [(key, *kind) for key, (kind, _) in columns.items()]
+    return numpy.array(list(zip(*(column for _, column in columns.values()))), dtype)
+
+
+def columns_of(rows):
+    """Of each key that has one its kind, by NumPy, and its column."""
+    columns = {}
+    for key in dict.fromkeys(key for row in rows for key in row):
+        column = [row.get(key) for row in rows]
+        kind = _kind_of(key, [one for one in column if one is not None])
+        if kind is None:
             continue
-        if len(known) < len(column):
-            kind = kind if kind[0].startswith("U") else ("f8", *kind[1:])
-            nothing = "" if kind[0].startswith("U") else float("nan")
-            nothing = [nothing] * kind[1][0] if len(kind) > 1 else nothing
-            columns[key] = [nothing if one is None else one for one in column]
-        kinds[key] = kind
-    dtype = [(key, *kind) for key, kind in kinds.items()]
-    return numpy.array([tuple(columns[key][i] for key in kinds) for i in range(len(rows))], dtype)
+        nothing = "" if kind[0].startswith("U") else float("nan")
+        if len(kind) > 1:
+            nothing = (nothing, nothing)
+        column = [nothing if one is None else tuple(one) if isinstance(one, list) else one for one in column]
+        columns[key] = (kind, column)
+    return columns
 
 
-def _kind_of(column):
+def _kind_of(key, known):
     """What an array of these is made of; None: of too different things."""
-    if all(isinstance(one, bool) for one in column):
+    if key in _TEXTS or (known and all(isinstance(one, str) for one in known)):
+        return (f"U{max(map(len, known), default=0) or 1}",)
+    if known and all(isinstance(one, bool) for one in known):
         return ("?",)
-    if any(isinstance(one, bool) for one in column):
+    if any(isinstance(one, bool) for one in known):
         return None
-    if all(isinstance(one, int) for one in column):
+    if known and key in _COUNTS and all(isinstance(one, int) for one in known):
         return ("i8",)
-    if all(isinstance(one, (int, float)) for one in column):
+    if all(isinstance(one, (int, float)) for one in known):
         return ("f8",)
-    if all(isinstance(one, str) for one in column):
-        return (f"U{max(map(len, column)) or 1}",)
-    if all(isinstance(one, list) and len(one) == 2 for one in column):
-        if all(isinstance(part, (int, float)) for one in column for part in one):
+    if all(isinstance(one, list) and len(one) == 2 for one in known):
+        if all(isinstance(part, (int, float)) for one in known for part in one):
             return ("f8", (2,))
     return None
 
@@ -129,7 +136,13 @@ class Report:
         """The main table as a pandas.DataFrame (Debian: python3-pandas)."""
         import pandas
 
-        return pandas.DataFrame(self._main())
+        main = self._main()
+        frame = pandas.DataFrame(main)
+        if isinstance(main, list):
+            for key, (kind, column) in columns_of(main).items():
+                if len(kind) == 1:
+                    frame[key] = numpy.array(column, dtype=object if kind[0].startswith("U") else kind[0])
+        return frame
 
     def _main(self):
         raise NotImplementedError

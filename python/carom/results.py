@@ -350,9 +350,9 @@ class Comparison(Result):
     @property
     def measured(self) -> numpy.ndarray:
         """A row for each scheme, (schemes,): scheme, stated and measured order, order_error, from and
-        to (time, the steps that it rests on), reason, reversible, symplectic, areas and areas_error
-        (share) …"""
-        return table_of(self._json["measured"])
+        to (time, the steps that it rests on), reason ("": none), reversible and symplectic (1 or 0),
+        areas and areas_error (share) … What is not known is NaN."""
+        return table_of(self._json["measured"], unknown=("reversible", "symplectic"))
 
     def _summary(self):
         cheapest = self._json["cheapest"]

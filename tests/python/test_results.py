@@ -139,6 +139,27 @@ def test_results_are_dataframes(escape):
         assert len(result.to_dataframe()) > 0
 
 
+def test_types_of_columns_do_not_depend_on_their_values():
+    whole = {"t": 1, "n": 2, "at": [1, 0], "failure": None, "reversible": True}
+    other = {"t": 0.5, "n": 3, "at": [0.5, 0], "failure": "none", "reversible": None}
+    types = [("t", "f8"), ("n", "i8"), ("at", "f8", (2,)), ("failure", "U4"), ("reversible", "f8")]
+    for rows in ([whole, whole], [whole, other], [other, other]):
+        made = carom.records.table_of(rows, unknown=("reversible",)).dtype
+        assert [made[name].base.kind for name in made.names] == ["f", "i", "f", "U", "f"]
+    assert carom.records.table_of([whole, other], unknown=("reversible",)).dtype == numpy.dtype(types)
+    # A bouncing ball: all its numbers are whole.
+    found = carom.orbits("three-disc", hits=2)
+    points = found.orbits[0].points
+    assert (points["x"] == numpy.round(points["x"])).all()
+    assert {points[name].dtype.kind for name in points.dtype.names if name != "wall"} == {"f"}
+
+
+def test_types_of_dataframes_do_not_depend_on_their_values():
+    pytest.importorskip("pandas")
+    frame = carom.orbits("three-disc", hits=2).to_dataframe()
+    assert [str(frame[key].dtype) for key in ("hits", "period", "maslov")] == ["int64", "float64", "float64"]
+
+
 def test_notebooks_show_tables_and_reports(escape):
     assert carom.system("mushroom")._repr_svg_().startswith("<svg")
     for report in (escape, carom.table("stadium"), carom.section("stadium", points=5, orbits=1)):
