@@ -19,6 +19,7 @@
 #include "carom/integrators/scheme.hpp"
 #include "carom_version.hpp"
 #include "cli/commands/ensemble_job.hpp"
+#include "cli/reports/aligned.hpp"
 #include "io/checkpoint/work_folder.hpp"
 
 namespace carom::cli {
@@ -273,6 +274,10 @@ const std::atomic<bool>& catch_interrupts() {
   action.sa_handler = on_limit;
   sigaction(SIGXCPU, &action, nullptr);
   return interrupted;
+}
+
+std::string heading(const System& system) {
+  return folded(system.title.empty() ? system.name : system.title) + "\n";
 }
 
 std::string grouped(std::uint64_t number) {

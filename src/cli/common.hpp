@@ -101,6 +101,8 @@ inline Place place_of(const char* option) { return {"command line", 0, 0, option
 /// program at once. So does SIGXCPU, however often it comes.
 const std::atomic<bool>& catch_interrupts();
 
+/// The first line of a report: the system's title, or its name.
+std::string heading(const System&);
 /// "9 012 345".
 std::string grouped(std::uint64_t number);
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "cli/reports/aligned.hpp"
 #include "program.hpp"
 
 namespace carom {
@@ -60,7 +61,7 @@ TEST(Untrusted, UnresolvedTrajectoriesComeFirst) {
     const std::uint64_t unresolved = whole(json.out, "unresolved");
     EXPECT_GT(unresolved, 10u) << command;
     EXPECT_EQ(whole(json.out, "lost"), 0u) << command;
-    const std::string first = text.out.substr(0, text.out.find('\n'));
+    const std::string first = on_one_line(text.out).substr(0, 300);
     EXPECT_TRUE(holds(first, std::to_string(unresolved))) << first;
     EXPECT_FALSE(holds(text.out, "0x") || holds(text.err, "0x") ||
                  holds(text.out, "internal error"))
@@ -84,11 +85,32 @@ TEST(Untrusted, UnresolvedTrajectoriesComeFirst) {
   EXPECT_TRUE(holds(json_value(one.out, "state"), "0x")) << one.out;
   const std::string reason = json_value(one.out, "reason");
   ASSERT_GT(reason.size(), 2u);
-  EXPECT_TRUE(begins_with(text.out, reason.substr(1, reason.size() - 2))) << text.out;
+  EXPECT_TRUE(begins_with(on_one_line(text.out), reason.substr(1, reason.size() - 2))) << text.out;
   EXPECT_FALSE(holds(text.out, "0x")) << text.out;
   const Outcome again = shell("$carom run --resume a.h5 --t-max 1");
   EXPECT_EQ(again.status, 3);
   EXPECT_NE(again.err, "");
+}
+
+// A group fails at once: its reason is said once, in lines that fit.
+TEST(Untrusted, ReasonsAreSaidOnceAndShort) {
+  const Shell shell;
+  const Outcome group = shell(
+      "$carom diffusion wigner --trajectories 3 --t-max 1 --quiet --set "
+      "integrator.step=0.9");
+  EXPECT_EQ(group.status, 3);
+  const auto times = [](const std::string& text, const std::string& what) {
+    std::size_t number = 0;
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at) ++number;
+    return number;
+  };
+  EXPECT_EQ(times(group.err, "does not resolve"), 1u) << group.err;
+  EXPECT_TRUE(holds(group.err, "14 more could not be followed")) << group.err;
+  const Outcome apart = shell(
+      "$carom escape soft-lorentz --trajectories 50 --quiet --t-max 9 --set integrator.step=0.9");
+  EXPECT_EQ(times(on_one_line(apart.err), "does not resolve"), 3u) << apart.err;
+  for (const std::string& text : {group.err, apart.err, group.out, apart.out})
+    EXPECT_LE(cli::width_of(text), cli::line_width) << text;
 }
 
 TEST(Untrusted, AreKeptByArchivesAndMerges) {

@@ -187,7 +187,7 @@ Json sample_json(const System& system, const CertifiedSample& sample) {
 }
 
 std::string sample_text(const System& system, const CertifiedSample& sample, std::size_t rows) {
-  return fmt::format("{}\n", system.title.empty() ? system.name : system.title) +
+  return heading(system) +
          text_of(sample.result, sample.digits, rows);
 }
 

@@ -103,7 +103,7 @@ std::string certified_text(const System& system, const CertifiedEnd& end, const 
                            const CertifiedEffort& effort, const std::string& output,
                            double seconds) {
   const int digits = task.digits;
-  std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  std::string text = heading(system);
   text += fmt::format("  status        {}", name_of(end.fate));
   if (end.hole >= 0)
     text +=

@@ -71,8 +71,8 @@ inline EnsembleContext context_of(const Options& options, std::string status, st
 template <class Result>
 int report(const Options& options, const System& system, const Result& result,
            const EnsembleContext& context, bool complete) {
-  warn_of(result.reports);
   const Doubts doubts = doubts_of(system, result);
+  warn_of(result.reports, doubts.failed);
   print_report(
       options, [&] { return result_json(system, result, context); },
       [&] { return result_text(system, result, context); }, doubts.text());

@@ -93,9 +93,9 @@ int section(const Options& options) {
   }
   const std::string status = result.complete ? "completed" : "interrupted";
   if (archive) archive->finish(result, status);
-  warn_of(result.reports);
   const std::string archive_name = named_archive(options, options.output);
   const Doubts doubts = doubts_of(system, result);
+  warn_of(result.reports, doubts.failed);
   print_report(
       options, [&] { return section_json(system, result, status, archive_name); },
       [&] {

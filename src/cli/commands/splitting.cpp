@@ -174,10 +174,10 @@ std::string splitting_text(const System& system, const SplittingResult& result, 
   const std::vector<SplitPoint> points_of_p = survival(result);
   const double extinction = extinction_of(points_of_p);
   const double rejected = share_rejected(result);
-  std::string text = fmt::format(
-      "{}\n{} populations of {} trajectories at each of three kicks,\n"
+  std::string text = heading(system) + fmt::format(
+      "{} populations of {} trajectories at each of three kicks,\n"
       "{:.3g} and its half and quarter, seed {}\n\n",
-      system.title.empty() ? system.name : system.title, grouped(result.runs.front().size()),
+      grouped(result.runs.front().size()),
       grouped(result.plan.population), result.plan.kick, system.run.seed);
   EstimateTable p_table, rate_table;
   std::vector<std::string> equivalent;

@@ -18,14 +18,14 @@ std::size_t characters(const std::string& text) {
 
 int exponent_of(double x) { return static_cast<int>(std::floor(std::log10(std::fabs(x)))); }
 
+}  // namespace
+
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   return lines;
 }
-
-}  // namespace
 
 std::string Rounding::operator()(double x) const {
   if (std::isnan(x)) return "-";

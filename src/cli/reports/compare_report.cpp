@@ -40,7 +40,7 @@ double control(const WorkForError& work) { return work.step > 0.0 ? work.step : 
 double control(const ComparedRun& run) { return run.step > 0.0 ? run.step : run.tolerance; }
 
 std::string head_text(const System& system, const Comparison& result) {
-  std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  std::string text = heading(system);
   text += fmt::format("until t = {:.6g}, where small errors have grown {:.3g} times\n", result.t,
                       result.growth);
   if (result.exact)

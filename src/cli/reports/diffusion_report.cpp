@@ -242,7 +242,7 @@ std::string result_text(const System& system, const DiffusionResult& result,
                         const EnsembleContext& context) {
   const DiffusionSummary summary = summary_of(system, result);
   std::string text =
-      doubts_of(system, result).text() +
+      doubts_of(system, result).folded_text() +
       head_text(system, result.trajectories, system.run.times.back(), result.complete, context);
   text += moments_table(summary.points, context);
   text += velocity_table(summary.points, context);

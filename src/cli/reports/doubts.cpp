@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <string_view>
 
 #include "carom/ensemble/parts.hpp"
 #include "carom/events/report.hpp"
 #include "carom/integrators/scheme.hpp"
 #include "cli/common.hpp"
+#include "cli/reports/aligned.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {
@@ -21,15 +24,15 @@ bool integrated(const System& system) { return engine_of(system) != "events"; }
 // `all`: of that many, each of them `what`.
 Doubts doubts(const System& system, std::uint64_t all, const char* what, std::uint64_t unresolved,
               std::uint64_t lost, const Reports& reports, const EnergyError& energy) {
-  Doubts doubts;
+  Doubts doubts{{}, unresolved + lost};
   if (lost > 0)
     doubts.lines.push_back(fmt::format("internal error, please report it: {} of {} {}s are lost",
                                        grouped(lost), grouped(all), what));
-  if (unresolved + lost > 0 && !reports.empty()) {
+  if (doubts.failed > 0 && !reports.empty()) {
     const auto& [index, report] = reports.front();
     const std::string others =
         all > 1 ? fmt::format(" ({} {}, the first of {} of {} that could not be followed)", what,
-                              index, grouped(unresolved + lost), grouped(all))
+                              index, grouped(doubts.failed), grouped(all))
                 : "";
     doubts.lines.push_back(std::string(shown(report)) + others);
   } else if (unresolved > 0) {
@@ -55,6 +58,12 @@ Reports reports_of(const SingleRunResult& r) {
 std::string Doubts::text() const {
   std::string text;
   for (const std::string& line : lines) text += line + "\n";
+  return text;
+}
+
+std::string Doubts::folded_text() const {
+  std::string text;
+  for (const std::string& line : lines) text += folded(line) + "\n";
   return text;
 }
 
@@ -141,18 +150,25 @@ void add_reports(Json& json, const Reports& reports) {
   json.set("reports", std::move(list));
 }
 
-void warn_of(const Reports& reports) {
-  for (const auto& [index, report] : reports) warn(std::string(shown(report)));
+void warn_of(const Reports& reports, std::uint64_t all) {
+  constexpr std::size_t most = 3;
+  std::set<std::string_view> said;  // reason and time: a group fails at once
+  const std::string mark = "carom: ";
+  for (const auto& [index, report] : reports) {
+    if (said.size() == most) break;
+    const std::string_view text = shown(report);
+    if (said.insert(text.substr(0, text.rfind(", x = "))).second)
+      warn(folded(mark + std::string(text), "  ").substr(mark.size()));
+  }
+  if (all > said.size())
+    warn(fmt::format("{} more could not be followed; --json has the {}of {}",
+                     grouped(all - said.size()), all > reports.size() ? "first states, " : "states ",
+                     grouped(reports.size())));
 }
 
 void warn_of(const SingleRunResult& result) {
-  Reports reports = reports_of(result);
-  const std::size_t all = reports.size();
-  reports.resize(std::min(all, EnsembleResult::most_reports));
-  warn_of(reports);
-  if (all > reports.size())
-    warn(fmt::format("{} more particles could not be followed; --json tells of each",
-                     grouped(all - reports.size())));
+  const Reports reports = reports_of(result);
+  warn_of(reports, reports.size());
 }
 
 void add_steps(Json& json, const System& system, const StepCounts& steps) {

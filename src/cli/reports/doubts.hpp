@@ -22,8 +22,10 @@ using Reports = std::vector<std::pair<std::uint64_t, std::string>>;
 /// line each.
 struct Doubts {
   std::vector<std::string> lines;
+  std::uint64_t failed = 0;  ///< unresolved and lost ones
   bool any() const { return !lines.empty(); }
   std::string text() const;
+  std::string folded_text() const;  ///< in lines that fit
   /// The exit status of the command; `complete`: it was not interrupted.
   int status(bool complete) const;
 };
@@ -45,9 +47,10 @@ io::Json energy_json(const EnergyError&);
 void add_reports(io::Json&, const Reports&);
 /// `reason` and `state` of a report.
 void add_report(io::Json&, const std::string& report);
-/// Prints to standard error why trajectories failed.
-void warn_of(const Reports&);
-/// Of the particles of one run: the first few, and how many more there are.
+/// Prints to standard error why some of `all` that failed did: the first reasons, each with the
+/// state of one, and how many more there are.
+void warn_of(const Reports&, std::uint64_t all);
+/// Of the particles of one run.
 void warn_of(const SingleRunResult&);
 
 /// Keys of integrated motion: `steps`, `force_evaluations`, and with unresolved = "count"

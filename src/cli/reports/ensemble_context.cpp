@@ -15,8 +15,7 @@ std::string head_text(const System& system, std::uint64_t trajectories, double u
                       const EnsembleContext& context) {
   // Particles were counted.
   const std::size_t each = system.injections.empty() ? system.particles.size() : 1;
-  return fmt::format("{}\n{} trajectories{} until t = {:.6g}, seed {}{}{}\n",
-                     system.title.empty() ? system.name : system.title,
+  return heading(system) + fmt::format("{} trajectories{} until t = {:.6g}, seed {}{}{}\n",
                      grouped(trajectories / each),
                      each > 1 ? fmt::format(" of {} particles", each) : "", until, system.run.seed,
                      context.shard.of > 1 ? ", part " + text_of(context.shard) : "",

@@ -159,7 +159,7 @@ std::string result_text(const System& system, const EscapeResult& result,
                         const EnsembleContext& context) {
   const SurvivalCounts& counts = result.counts;
   std::string text =
-      doubts_of(system, result).text() +
+      doubts_of(system, result).folded_text() +
       head_text(system, counts.trajectories, system.run.t_max, result.complete, context);
   if (const std::string note = repeated_starts(system); !note.empty()) text += folded(note) + '\n';
   text += survival_table(counts, context);

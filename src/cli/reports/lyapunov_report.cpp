@@ -284,7 +284,7 @@ std::string result_text(const System& system, const LyapunovResult& result,
   const GrowthSums& sums = result.growth;
   const LyapunovEstimate e = estimate_of(sums);
   std::string text =
-      doubts_of(system, result).text() +
+      doubts_of(system, result).folded_text() +
       head_text(system, result.trajectories, sums.window().to, result.complete, context);
   if (const std::string reason = no_exponent(system, result); !reason.empty()) {
     text += folded("\nThere is no exponent: " + reason + ".") + '\n';

@@ -154,7 +154,7 @@ Json orbit_json(const System& system, const OrbitSearchResult& result,
 std::string orbit_text(const System& system, const OrbitSearchResult& result,
                        const OrbitContext& context) {
   const Table& table = *system.table;
-  std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  std::string text = heading(system);
   text += fmt::format("{} periodic orbit{} with at most {} hits{}\n", grouped(result.orbits.size()),
                       result.orbits.size() == 1 ? "" : "s", context.most_hits,
                       result.complete ? "" : "  (interrupted: of the starts that were tried)");

@@ -90,7 +90,7 @@ Json relax_json(const System& system, const RelaxResult& result, const std::stri
 
 std::string relax_text(const System& system, const RelaxResult& result, const std::string& output,
                        bool verbose) {
-  std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  std::string text = heading(system);
   const std::size_t count = result.equilibria.size();
   text += fmt::format("{} equilibri{} from {} start{}{}\n", grouped(count), count == 1 ? "um" : "a",
                       grouped(result.starts), result.starts == 1 ? "" : "s",

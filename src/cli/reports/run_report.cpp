@@ -190,8 +190,8 @@ Json run_json(const System& system, const SingleRunResult& result, const std::st
 
 std::string run_text(const System& system, const SingleRunResult& result, const std::string& status,
                      const std::string& output, bool verbose) {
-  std::string text = doubts_of(system, result).text() +
-                     fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  std::string text = doubts_of(system, result).folded_text() +
+                     heading(system);
   if (result.particles.size() == 1)
     text += end_text(system, result.particles.front(), result.interrupted);
   else

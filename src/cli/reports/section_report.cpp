@@ -67,8 +67,8 @@ Json section_json(const System& system, const SectionResult& result, const std::
 
 std::string section_text(const System& system, const SectionResult& result, const OrbitLines& lines,
                          const std::string& output, bool verbose) {
-  std::string text = doubts_of(system, result).text() +
-                     fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  std::string text = doubts_of(system, result).folded_text() +
+                     heading(system);
   text += fmt::format("{} points of {} orbit{}{}\n", grouped(result.points), grouped(result.orbits),
                       result.orbits == 1 ? "" : "s",
                       result.complete ? "" : "  (interrupted: those that were finished)");

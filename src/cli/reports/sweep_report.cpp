@@ -158,12 +158,12 @@ std::string head(const SweepResult& result) {
     text +=
         fmt::format("{}{} values of {} from {} to {}", text.empty() ? "" : ", ", key.values.size(),
                     key.key, shown_value(key.values.front()), shown_value(key.values.back()));
-  if (result.rows.empty()) return result.title + "\n" + folded(text + ": none was computed") + "\n";
+  if (result.rows.empty()) return folded(result.title) + "\n" + folded(text + ": none was computed") + "\n";
   const Json& first = result.rows.front().report;
   if (const double all = number_at(first, "trajectories"); !std::isnan(all))
     text += fmt::format(", {} trajectories each", grouped(static_cast<std::uint64_t>(all)));
   const std::string seed = first.find("seed") ? first.find("seed")->text() : "";
-  return result.title + "\n" + folded(text + fmt::format(", seed {} for each", seed)) + "\n";
+  return folded(result.title) + "\n" + folded(text + fmt::format(", seed {} for each", seed)) + "\n";
 }
 
 std::string table(const SweepResult& result) {
@@ -324,8 +324,8 @@ Json sweep_json(const SweepResult& result) {
 std::string sweep_text(const SweepResult& result) {
   std::string text, after;
   for (const SweepRow& row : result.rows)
-    if (const std::string doubts = row.doubts(); !doubts.empty())
-      text += fmt::format("{}: {}", named(result.plan, row.index), doubts);
+    for (const std::string& doubt : lines_of(row.doubts()))
+      text += folded(fmt::format("{}: {}", named(result.plan, row.index), doubt)) + "\n";
   text += head(result);
   if (result.status != "completed")
     text += fmt::format("({}: {} of {} values)\n", result.status, result.rows.size(),

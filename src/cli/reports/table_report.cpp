@@ -71,7 +71,7 @@ std::string number(double value) {
 std::string table_text(const System& system, const TableMeasure& measured,
                        const std::string& output, bool verbose) {
   const Table& table = *system.table;
-  std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  std::string text = heading(system);
   text += fmt::format(
       "  shape        {}\n  area         {}\n  perimeter    {}\n  mean flight  {}\n\n", table.shape,
       number(measured.area), number(measured.perimeter), number(measured.mean_flight));
