@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "base/interrupt.hpp"
 #include "carom/base/error.hpp"
@@ -32,13 +34,22 @@ Vector with_speed(Vector velocity, double speed) {
   return (speed / std::sqrt(dot(velocity, velocity))) * velocity;
 }
 
-InputError too_little_energy(const System& system, double energy, double lowest) {
+// Of interacting particles the sum is shared out: what was written is the energy of each.
+std::string of_all(const std::vector<double>& energies) {
+  const bool equal = std::all_of(energies.begin(), energies.end(),
+                                 [&](double one) { return one == energies.front(); });
+  return equal ? fmt::format(", the {:.6g} of each of {} particles together", energies.front(),
+                             energies.size())
+               : ", the energies of all particles together";
+}
+
+InputError too_little_energy(const System& system, double energy, double lowest, bool together) {
   Place place = system.initial.place;
   place.key = "particles.energy";
   return InputError(
       place,
-      fmt::format("no start has less potential energy than {:.6g}: the lowest seen is {:.6g}",
-                  energy, lowest),
+      fmt::format("no start has less potential energy than {:.6g}{}: the lowest seen is {:.6g}",
+                  energy, together ? of_all(system.energies) : "", lowest),
       "an energy above the potential's minimum, or another region to start from");
 }
 
@@ -80,7 +91,7 @@ State Sampler::draw_external(const World& world, std::uint64_t trajectory, int p
     state.velocity = with_speed(state.velocity, std::sqrt(2.0 * (energy - potential) / p.mass));
     return state;
   }
-  throw too_little_energy(system_, energy, lowest);
+  throw too_little_energy(system_, energy, lowest, false);
 }
 
 std::vector<State> Sampler::draw_all(const World& world, std::uint64_t trajectory) const {
@@ -125,7 +136,7 @@ std::vector<State> Sampler::draw_all(const World& world, std::uint64_t trajector
           with_speed(states[p].velocity, std::sqrt(2.0 * each / system_.particles[p].mass));
     return states;
   }
-  throw too_little_energy(system_, energy, lowest);
+  throw too_little_energy(system_, energy, lowest, true);
 }
 
 }  // namespace carom

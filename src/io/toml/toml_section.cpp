@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "carom/base/whole_number.hpp"
+#include "io/toml/overrides.hpp"
 
 namespace carom::io {
 namespace {
@@ -164,9 +165,36 @@ const KeyDescription* TomlSection::description(std::string_view key) const {
   return nullptr;
 }
 
+// A kind that was set on the command line beside the keys of another one: all that must go, and
+// how.
+void TomlSection::refuse_other_kind(const Entry& unknown) const {
+  const Value* kind = nullptr;
+  for (const char* key : {"kind", "shape"})
+    if (kind == nullptr) kind = table_.find(key);
+  if (kind_.empty() || kind == nullptr || kind->place.file != command_line_file ||
+      unknown.place.file == command_line_file)
+    return;
+  std::vector<std::string> others, own;
+  for (const Entry& entry : table_.entries)
+    if (description(entry.key) == nullptr && entry.place.file != command_line_file)
+      others.push_back("'" + entry.key + "'");
+  std::string needed;
+  for (const KeyDescription& d : key_table()) {
+    if (d.section != name_ || !of_kind(d, kind_)) continue;
+    own.emplace_back(d.key);
+    if (table_.find(d.key) == kind) needed = std::string(d.key) + "=\"" + kind_ + "\"";
+  }
+  const std::string& path = table_.place.key;
+  throw InputError(unknown.place,
+                   "'" + kind_ + "' was set beside " + listed(others) + " of another kind",
+                   (own.size() > 1 ? "one of " : "only ") + listed(own) + "; --set '" + path +
+                       "={" + needed + (own.size() > 1 ? ", …" : "") + "}' replaces the whole");
+}
+
 void TomlSection::check_keys() const {
   for (const Entry& entry : table_.entries) {
     if (description(entry.key) != nullptr) continue;
+    refuse_other_kind(entry);
     std::vector<std::string> known, elsewhere;
     for (const KeyDescription& d : key_table()) {
       if (d.section != name_) continue;

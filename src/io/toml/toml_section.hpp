@@ -56,6 +56,7 @@ class TomlSection {
 
  private:
   const KeyDescription* description(std::string_view key) const;
+  void refuse_other_kind(const Entry& unknown) const;
 
   Value& table_;
   std::string name_, kind_;
