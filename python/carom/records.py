@@ -47,7 +47,7 @@ _COUNTS = frozenset(
     "n number count chaotic escaped collisions hits copies steps force_evaluations unresolved_steps"
     " only_double only_certified descending neutral found first seed unresolved lost singular".split()
 )
-_TEXTS = frozenset(("failure", "reason"))
+_TEXTS = frozenset(("failure", "reason", "areas_reason"))
 
 
 def array_of(rows):

@@ -9,6 +9,7 @@ from typing import Any, Optional
 import numpy
 
 from . import _carom
+from ._carom import counted
 from .errors import InputError
 from .records import Record, Report, table_of
 from .system import System
@@ -66,7 +67,7 @@ class Table(OfSystem):
         return table_of(self._json["walls"])
 
     def _summary(self):
-        return f"{self.shape}, {len(self.walls)} walls, {len(self.holes)} holes"
+        return f"{self.shape}, {counted(len(self.walls), 'wall')}, {counted(len(self.holes), 'hole')}"
 
     def _main(self):
         return [{**wall} for wall in self._json["walls"]]
@@ -96,7 +97,7 @@ class CertifiedSample(OfSystem):
     """
 
     def _summary(self):
-        return f"{self.pairs} pairs, p = {self.p_value}"
+        return f"{counted(self.pairs, 'pair')}, p = {self.p_value}"
 
     def _main(self):
         return self.survival
@@ -111,7 +112,7 @@ class Splitting(OfSystem):
     """
 
     def _summary(self):
-        return f"{self.levels}, {self.repetitions} populations of {self.population}"
+        return f"{self.levels}, {counted(self.repetitions, 'population')} of {self.population}"
 
     def _main(self):
         return self._json["survival" if self.levels == "time" else "survival_hits"]
@@ -166,7 +167,7 @@ class Escape(Result):
     """
 
     def _summary(self):
-        return f"{self.trajectories} trajectories, {self.escaped} escaped, {self.survived} survived"
+        return f"{counted(self.trajectories, 'trajectory')}, {self.escaped} escaped, {self.survived} survived"
 
     def _main(self):
         return self.survival
@@ -194,7 +195,7 @@ class Diffusion(Result):
     """
 
     def _summary(self):
-        return f"{self.trajectories} trajectories, D = {self.D!r}"
+        return f"{counted(self.trajectories, 'trajectory')}, D = {self.D!r}"
 
     def _main(self):
         return self.msd
@@ -239,7 +240,7 @@ class Lyapunov(Result):
 
     def _summary(self):
         largest = self.lambda_[0] if self.lambda_ is not None else None
-        return f"{self.orbits} orbits, lambda = {largest!r}"
+        return f"{counted(self.orbits, 'orbit')}, lambda = {largest!r}"
 
     def _main(self):
         return self.distribution
@@ -325,7 +326,7 @@ class Run(Result):
         return table[numpy.argsort(table[:, 0], kind="stable")]
 
     def _summary(self):
-        return f"{self.status}, {self.collisions} collisions"
+        return f"{self.status}, {counted(self.collisions, 'collision')}"
 
     def _main(self):
         return self.hits
@@ -357,7 +358,7 @@ class Comparison(Result):
     def _summary(self):
         cheapest = self._json["cheapest"]
         best = "none" if cheapest is None else cheapest["scheme"]
-        return f"{len(self._json['measured'])} schemes, cheapest for {self.error:.1g}: {best}"
+        return f"{counted(len(self._json['measured']), 'scheme')}, cheapest for {self.error:.1g}: {best}"
 
     def _main(self):
         return self.schemes
@@ -391,7 +392,7 @@ class Certified(Result):
     collisions, digits, bits, lost_bits."""
 
     def _summary(self):
-        return f"{self.status}, {self.collisions} collisions, {self.digits} digits"
+        return f"{self.status}, {counted(self.collisions, 'collision')}, {counted(self.digits, 'digit')}"
 
     def __getattr__(self, key: str) -> Any:
         value = super().__getattr__(key)
@@ -435,7 +436,7 @@ class Orbits(Result):
         return self._outcome.paths()
 
     def _summary(self):
-        return f"{len(self.orbits)} orbits of at most {self.most_hits} hits"
+        return f"{counted(len(self.orbits), 'orbit')} of at most {counted(self.most_hits, 'hit')}"
 
     def _main(self):
         left_out = ("walls", "points", "multipliers", "reduced")
@@ -457,7 +458,7 @@ class Section(Result):
         return self._outcome.points()
 
     def _summary(self):
-        return f"{len(self.points)} points of {self.orbits} orbits"
+        return f"{counted(len(self.points), 'point')} of {counted(self.orbits, 'orbit')}"
 
     def _main(self):
         return self.points
@@ -472,7 +473,7 @@ class Equilibria(Result):
     """
 
     def _summary(self):
-        return f"{len(self._json['equilibria'])} from {self.starts} starts"
+        return f"{len(self._json['equilibria'])} from {counted(self.starts, 'start')}"
 
     def _main(self):
         return self._json["equilibria"]

@@ -125,7 +125,7 @@ class Sweep(Result):
         return plot.sweep(self, ax=ax, y=y)
 
     def _summary(self):
-        return f"{len(self)} values of {', '.join(key['key'] for key in self._json['keys'])}"
+        return f"{_carom.counted(len(self), 'value')} of {', '.join(key['key'] for key in self._json['keys'])}"
 
     def _main(self):
         return self.table

@@ -156,6 +156,7 @@ void add_loading(py::module_& module) {
                                 std::string(key.fallback), std::string(key.meaning)));
     return all;
   });
+  module.def("counted", &base::counted, py::arg("number"), py::arg("noun"));
   module.def("nearest_name", &nearest_name, py::arg("name"), py::arg("known"));
 }
 

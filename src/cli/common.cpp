@@ -16,6 +16,7 @@
 #include "carom/base/error.hpp"
 #include "carom/base/whole_number.hpp"
 #include "carom/ensemble/sampler.hpp"
+#include "carom/ensemble/single_run.hpp"
 #include "carom/integrators/scheme.hpp"
 #include "carom_version.hpp"
 #include "cli/commands/ensemble_job.hpp"
@@ -143,10 +144,8 @@ std::string engine_of(const System& system) {
 std::string repeated_starts(const System& system) {
   const std::uint64_t listed = listed_trajectories(system), all = system.run.trajectories;
   if (listed == 0 || listed >= all || !system.injections.empty()) return {};
-  return fmt::format(
-      "{} trajectories repeat {} listed one{}: they are not independent, and errors and intervals "
-      "too small",
-      grouped(all), grouped(listed), listed == 1 ? "" : "s");
+  return fmt::format("{} repeat {}: they are not independent, and errors and intervals too small",
+                     counted(all, "trajectory"), counted(listed, "listed one"));
 }
 
 void follow_links(Options& options) {
@@ -276,14 +275,13 @@ const std::atomic<bool>& catch_interrupts() {
   return interrupted;
 }
 
-std::string heading(const System& system) {
-  return folded(system.title.empty() ? system.name : system.title) + "\n";
+std::string until(double last_time) {
+  return last_time < no_last_time ? fmt::format("until t = {:.6g}", last_time)
+                                  : "without a last time";
 }
 
-std::string grouped(std::uint64_t number) {
-  std::string digits = fmt::format("{}", number);
-  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, 1, ' ');
-  return digits;
+std::string heading(const System& system) {
+  return folded(system.title.empty() ? system.name : system.title) + "\n";
 }
 
 }  // namespace carom::cli

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "base/counted.hpp"
 #include "carom/base/error.hpp"
 #include "carom/ensemble/system.hpp"
 #include "carom/events/decisions.hpp"
@@ -101,9 +102,11 @@ inline Place place_of(const char* option) { return {"command line", 0, 0, option
 /// program at once. So does SIGXCPU, however often it comes.
 const std::atomic<bool>& catch_interrupts();
 
+using base::counted;
+using base::grouped;
+/// "until t = 20", or "without a last time".
+std::string until(double last_time);
 /// The first line of a report: the system's title, or its name.
 std::string heading(const System&);
-/// "9 012 345".
-std::string grouped(std::uint64_t number);
 
 }  // namespace carom::cli

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,27 +19,63 @@
 #include "cli/command_options.hpp"
 #include "cli/command_table.hpp"
 #include "cli/option_faults.hpp"
+#include "cli/reports/aligned.hpp"
 
 namespace carom::cli {
 
 namespace {
 
 constexpr const char* introduction =
-    "carom: classical particles in two dimensions. Between walls particles fly freely, with or\n"
-    "without a magnetic field, and hits are found exactly. Where potentials or other particles\n"
-    "act, the motion is integrated.";
+    "carom: classical particles in two dimensions. Between walls particles fly\n"
+    "freely, with or without a magnetic field, and hits are found exactly. Where\n"
+    "potentials or other particles act, the motion is integrated.";
 
 constexpr const char* examples =
     "Examples:\n"
-    "  carom escape magnetic-square               survival in a square with a hole, in a few "
-    "seconds\n"
+    "  carom escape magnetic-square            survival in a square with a hole\n"
     "  carom run stadium --closed --collisions 1000 -o orbit.h5\n"
-    "                                             one orbit, every hit in Birkhoff coordinates\n"
-    "  carom table mushroom -o mushroom.svg       area, perimeter, walls; a drawing\n"
+    "                                          one orbit, every hit of it\n"
+    "  carom table mushroom -o mushroom.svg    area, perimeter, walls; a drawing\n"
     "\n"
     "SYSTEM is a built-in name (carom systems) or a TOML file (my.toml, ./my). Any key of it can "
-    "be\n"
-    "changed: --set table.width=2 --set \"field.B=1/3\". carom COMMAND --help explains a command.";
+    "be changed: --set table.width=2 --set \"field.B=1/3\". carom COMMAND --help explains a "
+    "command.";
+
+// Help in lines that fit a terminal.
+class Help : public CLI::Formatter {
+ public:
+  std::string make_option_desc(const CLI::Option* option) const override {
+    return beside(Formatter::make_option_desc(option));
+  }
+  std::string make_subcommand(const CLI::App* command) const override {
+    std::stringstream out;
+    CLI::detail::format_help(out, command->get_name(), beside(command->get_description()),
+                             get_column_width());
+    return out.str();
+  }
+  std::string make_footer(const CLI::App* app) const override {
+    std::string text;
+    for (const std::string& line : lines_of(app->get_footer())) text += folded(line, "") + "\n";
+    return text;
+  }
+
+  std::string make_option_opts(const CLI::Option* option) const override {
+    std::string text = Formatter::make_option_opts(option);
+    constexpr std::size_t room = line_width - 12;  // beside the option's name
+    for (std::size_t from = 0; text.size() - from > room;) {
+      const std::size_t bar = text.rfind('|', from + room);
+      if (bar == std::string::npos || bar < from) break;
+      text.insert(bar + 1, "\n" + std::string(9, ' '));
+      from = bar + 2;
+    }
+    return text;
+  }
+
+ private:
+  std::string beside(const std::string& text) const {
+    return folded(text, "", line_width - get_column_width());
+  }
+};
 
 std::string quoted(const std::string& word) {
   const bool plain =
@@ -49,6 +87,7 @@ std::string quoted(const std::string& word) {
 }
 
 void define(CLI::App& app, Options& o, bool& version_wanted) {
+  app.formatter(std::make_shared<Help>());  // of the commands, too
   app.footer(examples);
   app.add_flag("--version", version_wanted, "Print the version");
   app.require_subcommand(0, 1);
@@ -59,9 +98,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "  carom escape stadium --trajectories 1e5 --per-trajectory -o basins.h5\n"
           "\n"
           "With -o a checkpoint is written every ten seconds: carom escape --resume FILE.h5 goes "
-          "on after "
-          "Ctrl-C, a kill\n"
-          "or a full disk, and ends with the same bits.\n"
+          "on after Ctrl-C, a kill or a full disk, and ends with the same bits.\n"
           "A closed table is legal: nothing escapes. Exit status 3 if a trajectory could not be "
           "followed.")
       .system("SYSTEM", "Built-in name or TOML file")
@@ -91,9 +128,8 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
   Command(app, o, "run", "Follow one trajectory and store every hit",
           "Examples:\n"
           "  carom run mushroom --trajectory 7 --t-max 100\n"
-          "  carom run circle --closed --position 1/10,0 --velocity 1,2 --collisions "
-          "1e4 -o orbit.h5\n"
-          "  carom run --resume orbit.h5 --collisions 2e4     goes on from where the archive ends\n"
+          "  carom run circle --closed --position 1/10,0 --velocity 1,2 -o orbit.h5\n"
+          "  carom run --resume orbit.h5 --collisions 2e4     goes on where it ends\n"
           "\n"
           "With --collisions and without --t-max the run has no last time.")
       .system("SYSTEM", "Built-in name or TOML file")
@@ -162,7 +198,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "  carom section stadium --closed --on line:0,-1:0,1 --direction positive\n"
           "  carom section henon-heiles --on x=0 --direction positive --points 500 --json\n"
           "\n"
-          "WHERE is boundary, wall:NAME, line:x0,y0:x1,y1, segment:x0,y0:x1,y1, circle:x,y,r,\n"
+          "WHERE is boundary, wall:NAME, line:x0,y0:x1,y1, segment:x0,y0:x1,y1, circle:x,y,r, "
           "x=c, y=c, vx=c or vy=c. With --points and without --t-max a boundary section has no "
           "last time.")
       .system("SYSTEM", "Built-in name or TOML file")
@@ -195,7 +231,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
   Command(app, o, "compare", "Compares integrators on a system: error against work",
           "Examples:\n"
           "  carom compare henon-heiles\n"
-          "  carom compare soft-lorentz --schemes velocity-verlet,blanes-moan-srkn6b --error 1e-4\n"
+          "  carom compare soft-lorentz --schemes velocity-verlet,ruth-3 --error 1e-4\n"
           "  carom compare wigner --steps 0.1,0.05,0.025 --verbose -o compared.h5\n"
           "  carom compare stadium --closed --json      free: against exact flights\n"
           "\n"
@@ -234,8 +270,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "Each orbit is given once, but for its start, reversal and the table's symmetries. Holes "
           "are closed.\n"
           "Between discs in the open plane every sequence of discs is tried. Elsewhere recurrences "
-          "of random orbits are:\n"
-          "orbits may be missed.")
+          "of random orbits are: orbits may be missed.")
       .system("SYSTEM", "Built-in name or TOML file")
       .settings()
       .sweep_that_goes_on()
@@ -252,14 +287,13 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
       .flag("--certify", o.certify, "Prove that each orbit exists, and give its digits")
       .text("--digits", o.digits, "D", "With --certify: guaranteed decimals (default 20)")
       .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)");
-  Command(
-      app, o, "merge", "Merges the parts of an ensemble into one archive",
-      "Examples:\n"
-      "  carom escape stadium --shard 1/2 -o a.h5\n"
-      "  carom escape stadium --shard 2/2 -o b.h5\n"
-      "  carom merge all.h5 a.h5 b.h5     the archive that the whole ensemble would have written\n"
-      "\n"
-      "Parts that overlap or do not match are refused.")
+  Command(app, o, "merge", "Merges the parts of an ensemble into one archive",
+          "Examples:\n"
+          "  carom escape stadium --shard 1/2 -o a.h5\n"
+          "  carom escape stadium --shard 2/2 -o b.h5\n"
+          "  carom merge all.h5 a.h5 b.h5     the archive of the whole ensemble\n"
+          "\n"
+          "Parts that overlap or do not match are refused.")
       .files("FILES", "The archive to be written (or -o FILE.h5), then the parts")
       .output("FILE.h5", "The archive to be written")
       .verbose();
@@ -306,8 +340,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
       .system("NAME", "Built-in system to print");
   Command(app, o, "validate", "Checks the engine against identities and published values",
           "Examples:\n"
-          "  carom validate                  10^7 hits in each of five closed tables, published "
-          "values\n"
+          "  carom validate                  closed tables, published values\n"
           "  carom validate --scale 0.01     a quick look\n"
           "  carom validate --soak --json    the long runs\n"
           "  carom validate --report validation.html\n"

@@ -71,6 +71,7 @@ bool DiffusionResult::add(const DiffusionResult& other) {
   trajectories += other.trajectories;
   add_fates(other);
   collisions += other.collisions;
+  contacts += other.contacts;
   energy_change = std::max(energy_change, other.energy_change);
   return true;
 }

@@ -67,6 +67,7 @@ class DiffusionListener : public Listener {
       }
       sum.energy_change = larger(sum.energy_change, energies.change);
       sum.energy_error += energies.error;
+      sum.contacts += end.contacts;
       sum.steps += end.steps;
       sum.decisions += decisions - std::exchange(decisions_, decisions);
       sum.done.add(range);

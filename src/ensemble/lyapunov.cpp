@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/counted.hpp"
 #include "carom/base/error.hpp"
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
@@ -108,6 +109,7 @@ bool LyapunovResult::add(const LyapunovResult& other) {
   trajectories += other.trajectories;
   add_fates(other);
   collisions += other.collisions;
+  contacts += other.contacts;
   return true;
 }
 
@@ -147,8 +149,8 @@ std::optional<InputError> why_nothing(const System& system, const LyapunovResult
     return result.no_repeller;
   }
   const std::string ended =
-      fmt::format("all {} particles ended before t = {:.6g}, the end of the window",
-                  result.trajectories, result.growth.window().to);
+      fmt::format("all {} ended before t = {:.6g}, the end of the window",
+                  base::counted(result.trajectories, "particle"), result.growth.window().to);
   if (const auto& error = result.no_repeller)
     return InputError(error->place(), ended + ", and " + error->problem(), error->expected());
   return InputError(Place{"", 0, 0, "run.t_max"}, ended,

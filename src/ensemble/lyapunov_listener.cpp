@@ -140,6 +140,7 @@ void LyapunovListener::end(const Trajectory& t, const TrajectoryEnd& end) {
           sum.digest += hash;
           if (is_failure(particle.fate)) keep_first(sum.reports, index, particle.report);
         }
+        sum.contacts += end.contacts;
         sum.steps += end.steps;
         sum.decisions += decisions - std::exchange(decisions_, decisions);
         sum.done.add(range);

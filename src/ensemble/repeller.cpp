@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/counted.hpp"
 #include "base/student.hpp"
 #include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"
@@ -128,8 +129,9 @@ std::optional<RepellerExponent> measure_repeller(const System& system, TimeWindo
                                                  const SplittingOptions& options) {
   if (system.run.trajectories < least_of_repeller())
     refuse("run.trajectories",
-           fmt::format("{} trajectories are too few to keep populations alive",
-                       system.run.trajectories),
+           fmt::format("{} {} too few to keep populations alive",
+                       base::counted(system.run.trajectories, "trajectory"),
+                       system.run.trajectories == 1 ? "is" : "are"),
            fmt::format("at least {}", least_of_repeller()));
   SplittingPlan plan;
   plan.by = SplittingPlan::Level::hits;

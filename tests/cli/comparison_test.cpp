@@ -41,6 +41,19 @@ TEST(Comparisons, OfFreeParticlesHaveExactFlightsAsReference) {
   EXPECT_EQ(json_value(o.out, "longest_resolved"), "null");
 }
 
+// Where every step meets a wall nothing is known of its areas, and the reason is said.
+TEST(Comparisons, SayWhyAreasAreNotMeasured) {
+  const Shell shell;
+  const std::string typed =
+      "$carom compare circle --closed --schemes velocity-verlet --steps 9 --t-max 40 ";
+  const Outcome o = shell(typed + "--json"), text = shell(typed);
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(o.out.find("\"areas\": null"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("\"areas_reason\": \"none of"), std::string::npos) << o.out;
+  EXPECT_NE(on_one_line(text.out).find("areas not measured (none of"), std::string::npos)
+      << text.out;
+}
+
 TEST(Comparisons, SchemesAreListedALineEach) {
   const Shell shell;
   const Outcome text = shell("$carom schemes"), json = shell("$carom schemes --json");

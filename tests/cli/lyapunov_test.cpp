@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <regex>
 #include <string>
 
 #include "kill_and_resume.hpp"
 #include "processes.hpp"
 #include "program.hpp"
+#include "systems.hpp"
 
 namespace carom {
 namespace {
@@ -134,6 +137,43 @@ TEST(Lyapunov, TakesEachListedStartOnce) {
   EXPECT_EQ(json_value(one.out, "digest"), json_value(many.out, "digest"));
   EXPECT_EQ(json_value(shell("$carom lyapunov --resume a.h5 --json").out, "digest"),
             json_value(one.out, "digest"));
+}
+
+// Of fewer quasi-random starts than replicates there is an exponent, but no error.
+TEST(Lyapunov, SaysWhyQuasiRandomStartsGiveNoError) {
+  const Shell shell;
+  const std::string few =
+      "$carom lyapunov sinai --t-max 20 --quiet --set initial.kind=sobol --trajectories ";
+  const Outcome none = shell(few + "15"), enough = shell(few + "16");
+  EXPECT_NE(on_one_line(none.out).find("16 replicates of the quasi-random starts, and 1 of them"),
+            std::string::npos)
+      << none.out;
+  EXPECT_EQ(none.out.find("errors by 16"), std::string::npos) << none.out;
+  EXPECT_NE(enough.out.find("errors by 16 replicates"), std::string::npos) << enough.out;
+  EXPECT_NE(json_value(shell(few + "15 --json").out, "notes").find("there are no errors"),
+            std::string::npos);
+  EXPECT_EQ(json_value(shell(few + "16 --json").out, "notes"), "[]");
+}
+
+// A gas on a torus hits no wall: its contacts are what was computed, and they are stored.
+TEST(Lyapunov, CountsContactsOfDiscs) {
+  const Shell shell;
+  std::ofstream(shell.folder() + "/gas.toml")
+      << discs_on_a_torus << "t_max = 20\ntrajectories = 2\n";
+  for (const std::string name : {"lyapunov", "diffusion"}) {
+    const Outcome made = shell("$carom " + name + " ./gas.toml --quiet -o " + name + ".h5");
+    EXPECT_TRUE(std::regex_search(
+        made.out, std::regex("\n0 collisions and [1-9][0-9 ]* contacts in .*contacts/s")))
+        << made.out << made.err;
+    const Outcome json = shell("$carom " + name + " ./gas.toml --json"),
+                  again = shell("$carom " + name + " --resume " + name + ".h5 --json");
+    EXPECT_GT(std::stod(json_value(json.out, "contacts")), 10.0);
+    EXPECT_EQ(json_value(json.out, "contacts"), json_value(again.out, "contacts"));
+    shell("$carom " + name + " ./gas.toml --shard 1/2 -o 1.h5 --force; $carom " + name +
+          " ./gas.toml --shard 2/2 -o 2.h5 --force");
+    EXPECT_EQ(json_value(shell("$carom merge all.h5 1.h5 2.h5 --force --json").out, "contacts"),
+              json_value(json.out, "contacts"));
+  }
 }
 
 }  // namespace

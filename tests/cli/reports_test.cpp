@@ -6,6 +6,7 @@
 #include <regex>
 #include <sstream>
 
+#include "base/counted.hpp"
 #include "carom/io/system_file.hpp"
 #include "cli/program.hpp"
 #include "cli/reports/aligned.hpp"
@@ -13,6 +14,7 @@
 namespace carom {
 namespace {
 
+using base::counted;
 using cli::rounding_of;
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -47,6 +49,53 @@ TEST(Digits, TellTimesApart) {
   EXPECT_EQ(cli::times_text({0.1, 1e6}), (std::vector<std::string>{"0.1", "1e+06"}));
   EXPECT_EQ(cli::times_text({1234567.1, 1234567.2}),
             (std::vector<std::string>{"1234567.1", "1234567.2"}));
+}
+
+TEST(Words, FollowTheirNumber) {
+  const std::pair<const char*, const char*> nouns[] = {{"orbit", "orbits"},
+                                                       {"trajectory", "trajectories"},
+                                                       {"equilibrium", "equilibria"},
+                                                       {"search", "searches"},
+                                                       {"process", "processes"}};
+  for (const auto& [one, many] : nouns) {
+    EXPECT_EQ(counted(1, one), std::string("1 ") + one);
+    EXPECT_EQ(counted(0, one), std::string("0 ") + many);
+    EXPECT_EQ(counted(12345, one), std::string("12 345 ") + many);
+  }
+  const Shell shell;
+  for (const char* command :
+       {"escape stadium --trajectories 1 --t-max 1", "lyapunov sinai --trajectories 1 --t-max 5",
+        "diffusion sinai --trajectories 1 --t-max 1", "section stadium --orbits 1 --points 1",
+        "run stadium --closed --collisions 1", "orbit three-disc --hits 2",
+        "relax wigner --starts 1 --set particles.count=1", "compare stadium --closed --t-max 1",
+        "run stadium --closed --collisions 1 --precision certified --digits 1"}) {
+    const Outcome o = shell(std::string("$carom ") + command + " --quiet");
+    std::smatch found;
+    EXPECT_FALSE(std::regex_search(o.out, found, std::regex("(^|[^.0-9])1 [a-z]+(ies|[^s]s)\\b")))
+        << found[0] << '\n'
+        << o.out;
+    EXPECT_NE(o.out, "") << command << o.err;
+  }
+}
+
+TEST(Lines, FitATerminal) {
+  const Shell shell;
+  std::vector<std::string> commands{
+      "systems",
+      "orbit three-disc --hits 4 --zeta --verbose",
+      "orbit magnetic-square --hits 3 --starts 500 --tries 50 --verbose",
+      "section siam-photon --set 'initial={kind=\"uniform\"}' --orbits 9",
+      "compare coulomb-circle --schemes yoshida-6 --t-max 0.05",
+      "--help"};
+  for (const char* command :
+       {"escape", "run", "diffusion", "lyapunov", "section", "relax", "compare", "schemes", "orbit",
+        "merge", "table", "plot", "animate", "systems", "validate"})
+    commands.push_back(std::string(command) + " --help");
+  for (const std::string& command : commands) {
+    const Outcome o = shell("$carom " + command);
+    EXPECT_EQ(o.status, 0) << command << o.err;
+    EXPECT_LE(cli::width_of(o.out), cli::line_width) << command << '\n' << o.out;
+  }
 }
 
 TEST(Rows, KeepTheLastAndAreFew) {

@@ -99,5 +99,14 @@ TEST(Section, OnAWallEndsWhereverTheWallIsNamed) {
   EXPECT_EQ(json_value(shell(closed + " --set run.t_max=1/1000").out, "incomplete"), "1");
 }
 
+TEST(Section, WithoutALastTimeSaysSo) {
+  const Shell shell;
+  const Outcome o = shell("$carom section stadium --orbits 5 --points 1000");
+  EXPECT_EQ(o.out.find("e+300"), std::string::npos) << o.out;
+  EXPECT_NE(on_one_line(o.out).find("with fewer than 1 000 points without a last time"),
+            std::string::npos)
+      << o.out;
+}
+
 }  // namespace
 }  // namespace carom

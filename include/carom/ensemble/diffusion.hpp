@@ -41,6 +41,7 @@ struct DiffusionResult : EnsembleResult, FateCounts {
   /// Particles of all trajectories; the fates are those before the last report time.
   std::uint64_t trajectories = 0;
   std::uint64_t collisions = 0;
+  std::uint64_t contacts = 0;  ///< of hard discs, each pair once
   double energy_change =
       0.0;  ///< with forces: the largest of a trajectory from its start to its end
 

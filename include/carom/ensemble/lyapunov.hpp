@@ -24,6 +24,7 @@ struct LyapunovResult : EnsembleResult, FateCounts {
   /// Particles of all trajectories; the fates are those before the end of the window.
   std::uint64_t trajectories = 0;
   std::uint64_t collisions = 0;
+  std::uint64_t contacts = 0;  ///< of hard discs, each pair once
   /// Where most orbits leave before the end of the window: of those that never would.
   std::optional<RepellerExponent> repeller;
   /// Why there is no `repeller` although it was looked for; not kept in archives.

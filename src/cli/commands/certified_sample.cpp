@@ -111,9 +111,9 @@ std::string text_of(const PairedEscapeResult& result, int digits, std::size_t mo
   const auto share = [&](std::uint64_t n) {
     return fmt::format("{:>10}  {:>7.3f} %", grouped(n), 100.0 * static_cast<double>(n) / all);
   };
-  std::string text =
-      fmt::format("The same starts in doubles and certified, {} decimals: {} pairs{}\n", digits,
-                  grouped(r.pairs), result.complete ? "" : " (interrupted)");
+  std::string text = fmt::format("The same starts in doubles and certified, {}: {}{}\n",
+                                 counted(static_cast<std::uint64_t>(digits), "decimal"),
+                                 counted(r.pairs, "pair"), result.complete ? "" : " (interrupted)");
   text += fmt::format("  escape otherwise      {}\n", share(r.different()));
   text += fmt::format("    elsewhere or not    {}\n", share(r.other_hole));
   text += fmt::format("    after other hits    {}\n", share(r.other_hits));
@@ -170,7 +170,7 @@ CertifiedSample compare_with_certified(const Options& options, const LoadedSyste
   const System& system = loaded.system;
   if (how.sample > system.run.trajectories)
     throw InputError(place_of("--certify-sample"),
-                     fmt::format("the ensemble has {} trajectories", system.run.trajectories),
+                     "the ensemble has " + counted(system.run.trajectories, "trajectory"),
                      "a sample of at most these, or more --trajectories");
   check(loaded);
   sample.result = compare_escapes(
@@ -187,8 +187,7 @@ Json sample_json(const System& system, const CertifiedSample& sample) {
 }
 
 std::string sample_text(const System& system, const CertifiedSample& sample, std::size_t rows) {
-  return heading(system) +
-         text_of(sample.result, sample.digits, rows);
+  return heading(system) + text_of(sample.result, sample.digits, rows);
 }
 
 int certified_sample(const Options& options) {

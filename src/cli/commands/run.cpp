@@ -71,7 +71,7 @@ void refuse_going_back(const System& system, const StoredRun& stored) {
                        "a later time");
     if (!more_hits && p.hits > system.run.collisions)
       throw InputError(Place{"command line", 0, 0, "--collisions"},
-                       fmt::format("the stored run has already {} collisions", p.hits),
+                       "the stored run has already " + counted(p.hits, "collision"),
                        "a larger number");
   }
 }

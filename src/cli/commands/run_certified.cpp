@@ -120,10 +120,10 @@ std::string certified_text(const System& system, const CertifiedEnd& end, const 
   if (system.table->lattice)
     text += fmt::format("   in cell {}, {}", end.cell.first, end.cell.second);
   text += fmt::format("\n  velocity      {}, {}\n", end.vx.text(digits), end.vy.text(digits));
-  text +=
-      fmt::format("  guaranteed    {} decimals, by {} bits ({} lost on the way, {} attempt{})\n",
-                  digits, effort.bits, static_cast<long>(effort.tangent_bits), effort.attempts,
-                  effort.attempts == 1 ? "" : "s");
+  text += fmt::format("  guaranteed    {}, by {} bits ({} lost on the way, {})\n",
+                      counted(static_cast<std::uint64_t>(digits), "decimal"), effort.bits,
+                      static_cast<long>(effort.tangent_bits),
+                      counted(static_cast<std::uint64_t>(effort.attempts), "attempt"));
   text += fmt::format("  computed in   {:.3g} s\n", seconds);
   return output.empty() ? text : text + fmt::format("  archive       {}\n", output);
 }

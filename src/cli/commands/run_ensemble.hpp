@@ -90,8 +90,9 @@ int report(const Options& options, const EnsembleJob<Result>& job, const Result&
 template <class Result>
 void say_how_to_go_on(const Options& options, const EnsembleJob<Result>& job, std::uint64_t kept) {
   if (named_archive(options, job.output).empty() || kept == 0) return;
-  warn(fmt::format("{} trajectories are kept; this goes on with them: carom {} --resume {}",
-                   grouped(kept), options.command, job.output));
+  warn(fmt::format("{} {} kept; this goes on with {}: carom {} --resume {}",
+                   counted(kept, "trajectory"), kept == 1 ? "is" : "are", kept == 1 ? "it" : "them",
+                   options.command, job.output));
 }
 
 // Reports a result that was just computed. How to go on stands at the end, where it is seen; it is

@@ -175,10 +175,11 @@ std::string splitting_text(const System& system, const SplittingResult& result, 
   const double extinction = extinction_of(points_of_p);
   const double rejected = share_rejected(result);
   std::string text = heading(system) + fmt::format(
-      "{} populations of {} trajectories at each of three kicks,\n"
-      "{:.3g} and its half and quarter, seed {}\n\n",
-      grouped(result.runs.front().size()),
-      grouped(result.plan.population), result.plan.kick, system.run.seed);
+                                           "{} of {} at each of three kicks,\n"
+                                           "{:.3g} and its half and quarter, seed {}\n\n",
+                                           counted(result.runs.front().size(), "population"),
+                                           counted(result.plan.population, "trajectory"),
+                                           result.plan.kick, system.run.seed);
   EstimateTable p_table, rate_table;
   std::vector<std::string> equivalent;
   for (const std::size_t row : every_kth(points_of_p.size(), most)) {
@@ -210,10 +211,10 @@ std::string splitting_text(const System& system, const SplittingResult& result, 
             "  -dP/dt between the times before and after t\n";
   text += split_fit_text(fit_decay(result, system.run.window), variable);
   text += fmt::format(
-      "\n{} collisions in {:.3g} s on {} thread{}\n"
+      "\n{} in {:.3g} s on {}\n"
       "{:.0f} % of the kicked copies kept their way\n",
-      grouped(result.collisions), result.seconds, result.threads, result.threads == 1 ? "" : "s",
-      100.0 * rejected);
+      counted(result.collisions, "collision"), result.seconds,
+      counted(static_cast<std::uint64_t>(result.threads), "thread"), 100.0 * rejected);
   if (verbose) text += fmt::format("digest {:016x}\n", result.digest);
   return text;
 }

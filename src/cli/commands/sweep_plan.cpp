@@ -164,7 +164,8 @@ void refuse_another(const io::SweepPlan& stored, const io::SweepPlan& asked,
                      "the same system and options, or none");
   };
   if (stored.systems.size() != asked.systems.size())
-    refuse(fmt::format("{} values, not {}", asked.systems.size(), stored.systems.size()));
+    refuse(
+        fmt::format("{}, not {}", counted(asked.systems.size(), "value"), stored.systems.size()));
   for (std::size_t i = 0; i < stored.systems.size(); ++i)
     if (const std::string differs = difference(stored.systems[i], asked.systems[i], "run.window");
         !differs.empty())

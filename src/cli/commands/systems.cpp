@@ -6,6 +6,7 @@
 #include "carom/base/error.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
+#include "cli/reports/aligned.hpp"
 
 namespace carom::cli {
 
@@ -37,7 +38,7 @@ int systems(const Options& options) {
   std::string text = "Built-in systems (carom systems NAME prints one as TOML):\n";
   for (const BuiltinSystem& s : all) {
     const std::string title = load_system(std::string(s.name)).system.title;
-    text += fmt::format("  {:<20} {}\n", s.name, title);
+    text += folded(fmt::format("  {:<20} {}", s.name, title), std::string(23, ' ')) + "\n";
     list.push(Json::object().set("name", s.name).set("title", title));
   }
   if (!options.json) {

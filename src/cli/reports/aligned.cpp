@@ -113,13 +113,13 @@ std::vector<std::string> ranges(const std::vector<std::string>& low,
   return all;
 }
 
-std::string folded(const std::string& line, const std::string& indent) {
+std::string folded(const std::string& line, const std::string& indent, std::size_t width) {
   std::string text, rest = line;
-  while (characters(rest) > line_width) {
+  while (characters(rest) > width) {
     std::size_t end = 0;  // of the last word that fits
     for (std::size_t at = rest.find(' ', indent.size() + 1); at != std::string::npos;
          at = rest.find(' ', at + 1)) {
-      if (characters(rest.substr(0, at)) > line_width && end > 0) break;
+      if (characters(rest.substr(0, at)) > width && end > 0) break;
       end = at;
     }
     if (end == 0) break;

@@ -42,7 +42,8 @@ std::string aligned(const std::vector<Column>&);
 std::vector<std::string> ranges(const std::vector<std::string>& low,
                                 const std::vector<std::string>& high);
 /// Prose in lines that fit, broken at blanks; the further lines begin with `indent`.
-std::string folded(const std::string& line, const std::string& indent = "");
+std::string folded(const std::string& line, const std::string& indent = "",
+                   std::size_t width = line_width);
 /// The lines of a text.
 std::vector<std::string> lines_of(const std::string& text);
 /// Length of the longest line; characters of UTF-8 count as one.

@@ -41,11 +41,11 @@ double control(const ComparedRun& run) { return run.step > 0.0 ? run.step : run.
 
 std::string head_text(const System& system, const Comparison& result) {
   std::string text = heading(system);
-  text += fmt::format("until t = {:.6g}, where small errors have grown {:.3g} times\n", result.t,
-                      result.growth);
+  text += fmt::format("until t = {:.6g}, where small errors have grown by a factor of {:.3g}\n",
+                      result.t, result.growth);
   if (result.exact)
-    text += fmt::format("reference: exact flights, {} hits, rounding {:.1e}\n",
-                        grouped(result.hits), result.reference_error);
+    text += fmt::format("reference: exact flights, {}, rounding {:.1e}\n",
+                        counted(result.hits, "hit"), result.reference_error);
   else
     text += fmt::format("reference: {} with steps of {:.4g}, error {:.1e}\n", result.reference,
                         result.reference_step, result.reference_error);
@@ -109,15 +109,28 @@ std::string runs_table(const ComparedScheme& scheme) {
   return fmt::format("\n{}\n{}", scheme.name, aligned(columns));
 }
 
+// Why it is not known whether areas are kept, as a phrase; "" where it is.
+std::string why_no_areas(const ComparedScheme& scheme) {
+  if (scheme.areas) return {};
+  return scheme.areas_step > 0.0
+             ? fmt::format("none of the steps of {:.3g} that were tried lies between hits",
+                           scheme.areas_step)
+             : "none of its steps could be followed";
+}
+
 std::string notes_text(const Comparison& result) {
   std::string text;
   std::map<std::string, std::string> reasons;
   std::string failed;
+  const auto add = [&](const std::string& what, const std::string& name) {
+    std::string& names = reasons[what];
+    names += (names.empty() ? "" : ", ") + name;
+  };
   for (const ComparedScheme& scheme : result.schemes) {
-    if (!scheme.measured.slope && !scheme.adaptive) {
-      std::string& names = reasons[scheme.measured.reason];
-      names += (names.empty() ? "" : ", ") + scheme.name;
-    }
+    if (!scheme.measured.slope && !scheme.adaptive)
+      add(fmt::format("no order ({})", scheme.measured.reason), scheme.name);
+    if (const std::string why = why_no_areas(scheme); !why.empty())
+      add(fmt::format("areas not measured ({})", why), scheme.name);
     for (const ComparedRun& run : scheme.runs)
       if (run.failed()) {
         failed +=
@@ -127,7 +140,7 @@ std::string notes_text(const Comparison& result) {
       }
   }
   for (const auto& [reason, names] : reasons)
-    text += folded(fmt::format("no order ({}): {}", reason, names), "  ") + "\n";
+    text += folded(fmt::format("{}: {}", reason, names), "  ") + "\n";
   return text + failed;
 }
 
@@ -206,6 +219,7 @@ Json scheme_json(const ComparedScheme& scheme) {
       .set("areas_error",
            number_if(scheme.areas.has_value(), scheme.areas ? scheme.areas->error : 0.0))
       .set("areas_step", number_if(scheme.areas.has_value(), scheme.areas_step))
+      .set("areas_reason", scheme.areas ? Json() : Json(why_no_areas(scheme)))
       .set("work", work_json(scheme));
 }
 

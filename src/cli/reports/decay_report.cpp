@@ -64,8 +64,8 @@ Json decay_json(const DecayFit& fit) {
 std::string decay_text(const DecayFit& fit, const char* variable) {
   if (fit.decays.empty())
     return "\n" + folded(fmt::format("No decay was fitted: {}.", fit.why_none)) + "\n";
-  std::string text = fmt::format("\nDecay from {} = {:.4g} to {:.4g}, {} escapes\n", variable,
-                                 fit.from, fit.to, grouped(fit.escapes));
+  std::string text = fmt::format("\nDecay from {} = {:.4g} to {:.4g}, {}\n", variable, fit.from,
+                                 fit.to, counted(fit.escapes, "escape"));
   const std::size_t shown = fit.decided ? 1 : 2;
   if (!fit.decided) text += not_told_apart;
   for (std::size_t i = 0; i < shown; ++i) {

@@ -181,6 +181,7 @@ Json result_json(const System& system, const DiffusionResult& result,
   json.set("survived", result.survived);
   add_fates(json, result);
   json.set("collisions", result.collisions);
+  if (system.of_discs()) json.set("contacts", result.contacts);
   if (engine_of(system) != "events")
     json.set("energy_change", result.energy_change)
         .set("energy_error", energy_json(result.energy_error));
@@ -252,7 +253,7 @@ std::string result_text(const System& system, const DiffusionResult& result,
   if (const std::string ends = fates_text(result); !ends.empty())
     text += "\nof the particles: " + ends + "\n";
   if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
-  text += "\n" + work_text(system, result.collisions, std::nullopt, result);
+  text += "\n" + work_text(system, result.collisions, result.contacts, result);
   text += verbose_text(system, result, context);
   if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
   return text;

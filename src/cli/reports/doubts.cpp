@@ -26,8 +26,9 @@ Doubts doubts(const System& system, std::uint64_t all, const char* what, std::ui
               std::uint64_t lost, const Reports& reports, const EnergyError& energy) {
   Doubts doubts{{}, unresolved + lost};
   if (lost > 0)
-    doubts.lines.push_back(fmt::format("internal error, please report it: {} of {} {}s are lost",
-                                       grouped(lost), grouped(all), what));
+    doubts.lines.push_back(fmt::format("internal error, please report it: {} of {} {} lost",
+                                       grouped(lost), counted(all, what),
+                                       lost == 1 ? "is" : "are"));
   if (doubts.failed > 0 && !reports.empty()) {
     const auto& [index, report] = reports.front();
     const std::string others =
@@ -37,7 +38,7 @@ Doubts doubts(const System& system, std::uint64_t all, const char* what, std::ui
     doubts.lines.push_back(std::string(shown(report)) + others);
   } else if (unresolved > 0) {
     doubts.lines.push_back(
-        fmt::format("{} of {} {}s could not be followed", grouped(unresolved), grouped(all), what));
+        fmt::format("{} of {} could not be followed", grouped(unresolved), counted(all, what)));
   }
   if (std::string doubt = energy_doubt(system, energy); !doubt.empty())
     doubts.lines.push_back(std::move(doubt));
@@ -162,8 +163,8 @@ void warn_of(const Reports& reports, std::uint64_t all) {
   }
   if (all > said.size())
     warn(fmt::format("{} more could not be followed; --json has the {}of {}",
-                     grouped(all - said.size()), all > reports.size() ? "first states, " : "states ",
-                     grouped(reports.size())));
+                     grouped(all - said.size()),
+                     all > reports.size() ? "first states, " : "states ", grouped(reports.size())));
 }
 
 void warn_of(const SingleRunResult& result) {
@@ -185,23 +186,28 @@ void add_steps(Json& json, const System& system, const StepCounts& steps) {
 std::string steps_text(const System& system, const StepCounts& steps) {
   if (!integrated(system)) return {};
   const IntegratorPlan& plan = system.dynamics.integrator;
-  std::string text = fmt::format("{} steps", grouped(steps.steps));
+  std::string text = counted(steps.steps, "step");
   if (plan.step > 0.0)
     text += fmt::format(" of {}{}", plan.step, plan.step_chosen ? " (chosen)" : "");
-  text += fmt::format(", {} force evaluations", grouped(steps.force_evaluations));
+  text += ", " + counted(steps.force_evaluations, "force evaluation");
   if (system.dynamics.integrator.count_unresolved)
-    text += steps.unresolved == 0 ? std::string(", no step unresolved")
-                                  : fmt::format(", {} steps unresolved, the first at t = {:.6g}",
-                                                grouped(steps.unresolved), steps.first_unresolved);
+    text += steps.unresolved == 0
+                ? std::string(", no step unresolved")
+                : fmt::format(", {} unresolved, the first at t = {:.6g}",
+                              counted(steps.unresolved, "step"), steps.first_unresolved);
   return text;
 }
 
-std::string pace_text(const System& system, std::uint64_t hits, const StepCounts& steps,
+std::string pace_text(const System& system, const EventCounts& events, const StepCounts& steps,
                       double seconds) {
-  const bool by_steps = hits == 0 && integrated(system);
-  return io::with_prefix(static_cast<double>(by_steps ? steps.steps : hits) /
+  const bool by_steps = events.all() == 0 && integrated(system);
+  const char* const unit = by_steps               ? "steps/s"
+                           : events.contacts == 0 ? "hits/s"
+                           : events.hits == 0     ? "contacts/s"
+                                                  : "hits and contacts/s";
+  return io::with_prefix(static_cast<double>(by_steps ? steps.steps : events.all()) /
                          std::max(seconds, 1e-9)) +
-         (by_steps ? "steps/s" : "hits/s");
+         unit;
 }
 
 std::string energy_text(const System& system, const EnergyError& error) {

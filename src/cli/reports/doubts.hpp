@@ -59,8 +59,13 @@ void add_steps(io::Json&, const System&, const StepCounts&);
 /// The same as a text that goes on a sentence: "1 200 steps, 13 200 force evaluations"; "" where
 /// nothing is integrated.
 std::string steps_text(const System&, const StepCounts&);
-/// "1.2M hits/s", or steps where nothing hits.
-std::string pace_text(const System&, std::uint64_t hits, const StepCounts&, double seconds);
+/// What happened to the particles of an ensemble.
+struct EventCounts {
+  std::uint64_t hits = 0, contacts = 0;
+  std::uint64_t all() const { return hits + contacts; }
+};
+/// "1.2M hits/s", of discs hits and contacts, or steps where nothing hits.
+std::string pace_text(const System&, const EventCounts&, const StepCounts&, double seconds);
 /// "largest change of a trajectory's energy …: 1e-12 at the end …\n"; "" where nothing is
 /// integrated.
 std::string energy_text(const System&, const EnergyError&);

@@ -11,32 +11,34 @@ namespace carom::cli {
 
 using io::Json;
 
-std::string head_text(const System& system, std::uint64_t trajectories, double until, bool complete,
-                      const EnsembleContext& context) {
+std::string head_text(const System& system, std::uint64_t trajectories, double last_time,
+                      bool complete, const EnsembleContext& context) {
   // Particles were counted.
   const std::size_t each = system.injections.empty() ? system.particles.size() : 1;
-  return heading(system) + fmt::format("{} trajectories{} until t = {:.6g}, seed {}{}{}\n",
-                     grouped(trajectories / each),
-                     each > 1 ? fmt::format(" of {} particles", each) : "", until, system.run.seed,
+  return heading(system) +
+         fmt::format("{}{} {}, seed {}{}{}\n", counted(trajectories / each, "trajectory"),
+                     each > 1 ? fmt::format(" of {} particles", each) : "", until(last_time),
+                     system.run.seed,
                      context.shard.of > 1 ? ", part " + text_of(context.shard) : "",
                      complete ? "" : "  (" + context.status + ": those that were finished)");
 }
 
-std::string work_text(const System& system, std::uint64_t collisions,
-                      std::optional<std::uint64_t> contacts, const EnsembleResult& result) {
-  std::string text = fmt::format("{} collisions", grouped(collisions));
-  if (contacts) text += fmt::format(" and {} contacts", grouped(*contacts));
+std::string work_text(const System& system, std::uint64_t collisions, std::uint64_t contacts,
+                      const EnsembleResult& result) {
+  std::string text = counted(collisions, "collision");
+  if (system.of_discs()) text += " and " + counted(contacts, "contact");
   if (const std::string steps = steps_text(system, result.steps); !steps.empty())
     text += "\n" + steps + "\n";
   else
     text += " ";
-  text += fmt::format("in {:.3g} s on {}{} thread{}: {}", result.seconds,
+  const EventCounts events{collisions, contacts};
+  text += fmt::format("in {:.3g} s on {}{}: {}", result.seconds,
                       result.ranks > 1 ? fmt::format("{} processes of ", result.ranks) : "",
-                      result.threads, result.threads == 1 ? "" : "s",
-                      pace_text(system, collisions, result.steps, result.seconds));
-  if (collisions > 0)
+                      counted(static_cast<std::uint64_t>(result.threads), "thread"),
+                      pace_text(system, events, result.steps, result.seconds));
+  if (events.all() > 0)
     text += fmt::format(", {} of CPU each",
-                        short_duration(result.cpu_seconds / static_cast<double>(collisions)));
+                        short_duration(result.cpu_seconds / static_cast<double>(events.all())));
   const std::size_t last = text.rfind('\n') + 1;
   return text.substr(0, last) + folded(text.substr(last)) + '\n';
 }

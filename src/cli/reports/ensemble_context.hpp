@@ -27,8 +27,8 @@ std::string head_text(const System&, std::uint64_t trajectories, double until, b
 /// What is said below a table of 12 of 31 times; "" where all are in it.
 std::string rows_text(std::size_t all, const EnsembleContext&);
 /// "1 000 collisions in 0.1 s on 2 threads: 10 khits/s …".
-std::string work_text(const System&, std::uint64_t collisions,
-                      std::optional<std::uint64_t> contacts, const EnsembleResult&);
+std::string work_text(const System&, std::uint64_t collisions, std::uint64_t contacts,
+                      const EnsembleResult&);
 /// What only --verbose prints: decisions, digest, lanes.
 std::string verbose_text(const System&, const EnsembleResult&, const EnsembleContext&,
                          const LaneEffort& = {});

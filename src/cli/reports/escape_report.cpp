@@ -164,14 +164,18 @@ std::string result_text(const System& system, const EscapeResult& result,
   if (const std::string note = repeated_starts(system); !note.empty()) text += folded(note) + '\n';
   text += survival_table(counts, context);
   if (!counts.parts.empty())
-    text += fmt::format("intervals by {} replicates of the quasi-random starts\n", replicates);
+    text +=
+        counts.trajectories < replicates
+            ? fmt::format(
+                  "the intervals say nothing: quasi-random starts take {} trajectories "
+                  "at least\n",
+                  replicates)
+            : fmt::format("intervals by {} replicates of the quasi-random starts\n", replicates);
   text += decay_text(decay_of(system, result));
   text += decay_by_hits_text(fit_decay_by_hits(counts));
   text += fates(system, counts);
   if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
-  text +=
-      "\n" + work_text(system, counts.collisions,
-                       system.of_discs() ? std::optional(counts.contacts) : std::nullopt, result);
+  text += "\n" + work_text(system, counts.collisions, counts.contacts, result);
   text += verbose_text(system, result, context, result.effort);
   if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
   return text;

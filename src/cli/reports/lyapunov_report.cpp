@@ -48,8 +48,19 @@ std::string no_exponent(const System& system, const LyapunovResult& result) {
   if (const auto error = why_nothing(system, result)) return error->problem();
   if (result.growth.totals().orbits > 0 || result.repeller) return {};
   if (result.trajectories == 0) return "no trajectory was followed";
-  return fmt::format("all {} particles ended before t = {:.6g}, the end of the window",
-                     grouped(result.trajectories), result.growth.window().to);
+  return fmt::format("all {} ended before t = {:.6g}, the end of the window",
+                     counted(result.trajectories, "particle"), result.growth.window().to);
+}
+
+// Why quasi-random starts give no error, as a phrase; "" where they do.
+std::string why_no_error(const GrowthSums& sums, const LyapunovEstimate& e) {
+  if (sums.parts().empty() || std::isfinite(e.per_time.error)) return {};
+  const auto without = std::count_if(sums.parts().begin(), sums.parts().end(),
+                                     [](const auto& part) { return part.orbits == 0; });
+  return fmt::format(
+      "there are no errors: they come from {} replicates of the quasi-random starts, and {} of "
+      "them followed no orbit to the end of the window; take more trajectories, {} at least",
+      replicates, without, replicates);
 }
 
 void add_notes_of(const RepellerExponent& r, std::vector<std::string>& notes) {
@@ -133,12 +144,14 @@ std::vector<std::string> notes_of(const System& system, const LyapunovResult& re
         "orbits that never leave is measured by whole runs of at least {} trajectories",
         grouped(least_of_repeller())));
   if (totals.orbits == 0) return notes;
+  if (std::string none = why_no_error(result.growth, e); !none.empty())
+    notes.push_back(std::move(none));
   // Those that are one orbit are followed only as long as none of them ends.
   const std::uint64_t each = together(system) ? system.particles.size() : 1;
   if (const std::uint64_t followed = each * totals.orbits; followed < result.trajectories)
     notes.push_back(fmt::format(
-        "{} particles ended before the end of the window: the numbers are those of the {} others",
-        grouped(result.trajectories - followed), grouped(followed)));
+        "{} ended before the end of the window: the numbers are those of {}",
+        counted(result.trajectories - followed, "particle"), counted(followed, "other")));
   if (!e.long_enough)
     notes.push_back(
         "the error still grows with the length of the blocks: it is too small, and takes longer "
@@ -176,12 +189,14 @@ std::string exponents_text(const System& system, const GrowthSums& sums,
     text += fmt::format("         {} per hit\n", cli::with_error(e.per_hit.value, e.per_hit.error));
   text += fmt::format("growth of deviations in {:.6g} <= t <= {:.6g}\n", sums.window().from,
                       sums.window().to);
-  if (!sums.parts().empty()) {
+  if (!why_no_error(sums, e).empty()) {
+    text += "no errors: see below\n";
+  } else if (!sums.parts().empty()) {
     text += fmt::format("errors by {} replicates of the quasi-random starts\n", replicates);
   } else if (e.block_errors.empty()) {
     text += "too few orbits, or blocks of them, for an error\n";
   } else if (const auto& last = e.block_errors.back(); last.count == sums.totals().orbits) {
-    text += fmt::format("errors by {} orbits\n", grouped(last.count));
+    text += fmt::format("errors by {}\n", counted(last.count, "orbit"));
   } else {
     text += "errors by blocks of length";
     for (const auto& one : e.block_errors)
@@ -213,9 +228,9 @@ std::string regularity_text(const GrowthSums& sums, const LyapunovEstimate& e) {
   const GrowthSums::Totals& t = sums.totals();
   std::string text = fmt::format("\nchaotic share {}\n",
                                  cli::with_error(e.chaotic_share.value, e.chaotic_share.error));
-  std::string orbits =
-      fmt::format("{} orbits are chaotic, {} regular, {} undecided", grouped(t.chaotic),
-                  grouped(t.regular), grouped(t.orbits - t.chaotic - t.regular));
+  std::string orbits = fmt::format("{} {} chaotic, {} regular, {} undecided",
+                                   counted(t.chaotic, "orbit"), t.chaotic == 1 ? "is" : "are",
+                                   grouped(t.regular), grouped(t.orbits - t.chaotic - t.regular));
   if (e.hidden > 0.0)
     orbits += fmt::format("; {:.2g} of all may be chaotic and have not shown it", e.hidden);
   text += folded(orbits) + '\n';
@@ -237,6 +252,7 @@ Json result_json(const System& system, const LyapunovResult& result,
   json.set("survived", result.survived);
   add_fates(json, result);
   json.set("collisions", result.collisions);
+  if (system.of_discs()) json.set("contacts", result.contacts);
   add_reports(json, result.reports);
   json.set("digest", fmt::format("{:016x}", result.digest));
   json.set("decisions", decisions_json(result.decisions));
@@ -301,7 +317,7 @@ std::string result_text(const System& system, const LyapunovResult& result,
   for (const std::string& note : notes_of(system, result, e)) text += folded(note) + '\n';
   if (const std::string ends = fates_text(result); !ends.empty())
     text += "\nof the particles: " + ends + "\n";
-  text += "\n" + work_text(system, result.collisions, std::nullopt, result);
+  text += "\n" + work_text(system, result.collisions, result.contacts, result);
   text += verbose_text(system, result, context);
   if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
   return text;

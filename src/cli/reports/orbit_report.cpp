@@ -67,7 +67,8 @@ Json proof_json(const ProofOfOrbit& proof, int digits) {
 }
 
 std::string proofs_text(const ProofsOfOrbits& proofs) {
-  std::string text = fmt::format("\nproven, with {} decimals: period, multiplier\n", proofs.digits);
+  std::string text = fmt::format("\nproven, with {}: period, multiplier\n",
+                                 counted(static_cast<std::uint64_t>(proofs.digits), "decimal"));
   for (std::size_t i = 0; i < proofs.orbits.size(); ++i) {
     const ProofOfOrbit& proof = proofs.orbits[i];
     text += fmt::format("  {:3}  ", i + 1);
@@ -120,11 +121,29 @@ std::string multiplier_text(const PeriodicOrbit& orbit) {
   return fmt::format("{:.6f} + {:.6f} i", m.real(), m.imag());
 }
 
-// The names of the walls as far as they fit.
-std::string walls_text(const PeriodicOrbit& orbit, const Table& table, std::size_t letters) {
-  std::string word = word_of(orbit, table);
-  if (word.size() > letters) word = word.substr(0, letters - 1) + "…";
-  return word;
+// The columns with the names of the walls as far as they fit; all of them below each row if
+// `verbose`.
+std::string with_walls(std::vector<Column> columns, const OrbitSearchResult& result,
+                       const Table& table, bool verbose) {
+  const std::size_t rows = columns[0].cells.size();
+  const std::size_t used = std::min(line_width, width_of(aligned(columns)) + 2);
+  if (!verbose) columns.push_back({"walls", {}, true});
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < rows; ++i) {
+    words.push_back(word_of(result.orbits[i], table));
+    const std::size_t letters = std::max(least_letters, line_width - used);
+    if (!verbose)
+      columns.back().cells.push_back(
+          words[i].size() > letters ? words[i].substr(0, letters - 1) + "…" : words[i]);
+  }
+  if (!verbose) return aligned(columns);
+  const std::vector<std::string> lines = lines_of(aligned(columns));
+  const std::size_t head = lines.size() - rows;
+  const std::string indent(8, ' ');
+  std::string text;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    text += lines[i] + "\n" + (i < head ? "" : folded(indent + words[i - head], indent) + "\n");
+  return text;
 }
 
 }  // namespace
@@ -155,12 +174,12 @@ std::string orbit_text(const System& system, const OrbitSearchResult& result,
                        const OrbitContext& context) {
   const Table& table = *system.table;
   std::string text = heading(system);
-  text += fmt::format("{} periodic orbit{} with at most {} hits{}\n", grouped(result.orbits.size()),
-                      result.orbits.size() == 1 ? "" : "s", context.most_hits,
+  text += fmt::format("{} with at most {}{}\n", counted(result.orbits.size(), "periodic orbit"),
+                      counted(context.most_hits, "hit"),
                       result.complete ? "" : "  (interrupted: of the starts that were tried)");
   std::vector<Column> columns{
       {"hits", {}}, {"period", {}}, {"multiplier", {}}, {"stability", {}, true}, {"copies", {}}};
-  Column indices{"Maslov index", {}};
+  Column indices{"Maslov\nindex", {}};
   bool through_hole = false;
   for (const PeriodicOrbit& orbit : result.orbits) {
     through_hole = through_hole || std::any_of(orbit.hits.begin(), orbit.hits.end(),
@@ -175,33 +194,28 @@ std::string orbit_text(const System& system, const OrbitSearchResult& result,
     columns[4].cells.push_back(orbit.family ? "" : fmt::format("{}", orbit.copies));
   }
   if (context.verbose) columns.push_back(indices);
-  const std::size_t rows = columns[0].cells.size(), width = width_of(aligned(columns)) + 2;
-  const std::size_t letters =
-      context.verbose ? std::string::npos
-                      : std::max(least_letters, line_width - std::min(line_width, width));
-  columns.push_back({"walls", {}, true});
-  for (std::size_t i = 0; i < rows; ++i)
-    columns.back().cells.push_back(walls_text(result.orbits[i], table, letters));
-  if (rows > 0) text += "\n" + aligned(columns);
+  const std::size_t rows = columns[0].cells.size();
+  if (rows > 0) text += "\n" + with_walls(columns, result, table, context.verbose);
   if (rows < result.orbits.size())
     text += fmt::format("  of {}; --verbose prints all\n", grouped(result.orbits.size()));
   text += "\n";
   if (through_hole)
     text += "holes were closed: some orbits hit the wall in a hole (--json: hole)\n";
   std::string starts;
-  if (result.words > 0) starts = fmt::format("{} words of discs", grouped(result.words));
+  if (result.words > 0) starts = counted(result.words, "word") + " of discs";
   if (result.recurrences > 0)
-    starts += fmt::format("{}{} recurrences of random orbits", starts.empty() ? "" : " and ",
-                          grouped(result.recurrences));
+    starts += fmt::format("{}{} of random orbits", starts.empty() ? "" : " and ",
+                          counted(result.recurrences, "recurrence"));
   text += folded(fmt::format("tried {}: {} led to no orbit, {} to one with a wall in its way",
                              starts.empty() ? "nothing" : starts, grouped(result.unsolved),
                              grouped(result.shadowed))) +
           "\n";
   if (result.cycles) text += zeta_text(*result.cycles);
   if (!context.proofs.orbits.empty()) text += proofs_text(context.proofs);
-  text += fmt::format("{} symmetr{} of the table; {:.3g} s on {} thread{}\n", result.symmetries,
-                      result.symmetries == 1 ? "y" : "ies", result.seconds, result.threads,
-                      result.threads == 1 ? "" : "s");
+  text +=
+      fmt::format("{} of the table; {:.3g} s on {}\n",
+                  counted(static_cast<std::uint64_t>(result.symmetries), "symmetry"),
+                  result.seconds, counted(static_cast<std::uint64_t>(result.threads), "thread"));
   if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
   return text;
 }

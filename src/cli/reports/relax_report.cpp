@@ -92,12 +92,11 @@ std::string relax_text(const System& system, const RelaxResult& result, const st
                        bool verbose) {
   std::string text = heading(system);
   const std::size_t count = result.equilibria.size();
-  text += fmt::format("{} equilibri{} from {} start{}{}\n", grouped(count), count == 1 ? "um" : "a",
-                      grouped(result.starts), result.starts == 1 ? "" : "s",
-                      result.complete ? "" : "  (interrupted: of those that were followed)");
+  text +=
+      fmt::format("{} from {}{}\n", counted(count, "equilibrium"), counted(result.starts, "start"),
+                  result.complete ? "" : "  (interrupted: of those that were followed)");
   if (result.without > 0)
-    text += fmt::format("{} search{} came to none\n", grouped(result.without),
-                        result.without == 1 ? "" : "es");
+    text += fmt::format("{} came to none\n", counted(result.without, "search"));
   const std::size_t shown = verbose ? count : std::min(count, equilibria_shown);
   if (shown > 0) {
     const auto n = static_cast<double>(system.particles.size());
@@ -124,8 +123,8 @@ std::string relax_text(const System& system, const RelaxResult& result, const st
                           wall < 0 ? "" : " on '" + system.table->wall(wall).name + "'");
     }
   }
-  text += fmt::format("\n{} starts in {:.3g} s on {} thread{}\n", grouped(result.starts),
-                      result.seconds, result.threads, result.threads == 1 ? "" : "s");
+  text += fmt::format("\n{} in {:.3g} s on {}\n", counted(result.starts, "start"), result.seconds,
+                      counted(static_cast<std::uint64_t>(result.threads), "thread"));
   if (!output.empty()) text += fmt::format("archive: {}\n", output);
   return text;
 }

@@ -59,9 +59,9 @@ std::string trust_text(const System& system, const RunEnd& particle) {
     return fmt::format("to the end: errors below {} of the table's size",
                        system.run.trust_tolerance);
   return fmt::format(
-      "{} collisions, until t = {:.6g}\n"
+      "{}, until t = {:.6g}\n"
       "                then errors exceed {} of the table's size or change a wall",
-      grouped(trust.hits), trust.time.value(), system.run.trust_tolerance);
+      counted(trust.hits, "collision"), trust.time.value(), system.run.trust_tolerance);
 }
 
 std::string end_text(const System& system, const RunEnd& particle, bool interrupted) {
@@ -190,15 +190,13 @@ Json run_json(const System& system, const SingleRunResult& result, const std::st
 
 std::string run_text(const System& system, const SingleRunResult& result, const std::string& status,
                      const std::string& output, bool verbose) {
-  std::string text = doubts_of(system, result).folded_text() +
-                     heading(system);
+  std::string text = doubts_of(system, result).folded_text() + heading(system);
   if (result.particles.size() == 1)
     text += end_text(system, result.particles.front(), result.interrupted);
   else
-    text += fmt::format(
-                "{}: {} particles, {} collisions{}\n", status, grouped(result.particles.size()),
-                grouped(result.collisions),
-                system.of_discs() ? fmt::format(", {} contacts", grouped(result.contacts)) : "") +
+    text += fmt::format("{}: {}, {}{}\n", status, counted(result.particles.size(), "particle"),
+                        counted(result.collisions, "collision"),
+                        system.of_discs() ? ", " + counted(result.contacts, "contact") : "") +
             particles_text(system, result, verbose);
   if (const std::string steps = steps_text(system, result.steps); !steps.empty())
     text += fmt::format("  integration   {}\n", steps);

@@ -67,27 +67,28 @@ Json section_json(const System& system, const SectionResult& result, const std::
 
 std::string section_text(const System& system, const SectionResult& result, const OrbitLines& lines,
                          const std::string& output, bool verbose) {
-  std::string text = doubts_of(system, result).folded_text() +
-                     heading(system);
-  text += fmt::format("{} points of {} orbit{}{}\n", grouped(result.points), grouped(result.orbits),
-                      result.orbits == 1 ? "" : "s",
-                      result.complete ? "" : "  (interrupted: those that were finished)");
+  std::string text = doubts_of(system, result).folded_text() + heading(system);
+  text +=
+      fmt::format("{} of {}{}\n", counted(result.points, "point"), counted(result.orbits, "orbit"),
+                  result.complete ? "" : "  (interrupted: those that were finished)");
   if (!lines.empty()) {
     text += "\n" + lines.table();
     if (result.orbits > lines.size())
-      text += fmt::format("  of {} orbits\n", grouped(result.orbits));
+      text += fmt::format("  of {}\n", counted(result.orbits, "orbit"));
   }
   const std::string ends = fates_text(result);
   if (result.incomplete > 0)
-    text += fmt::format("\n{} with fewer than {} points until t = {:.6g}{}\n",
-                        grouped(result.incomplete), grouped(system.section.points),
-                        system.run.t_max, ends.empty() ? "" : " (" + ends + ")");
+    text += "\n" +
+            folded(fmt::format("{} with fewer than {} {}{}", grouped(result.incomplete),
+                               counted(system.section.points, "point"), until(system.run.t_max),
+                               ends.empty() ? "" : " (" + ends + ")")) +
+            "\n";
   if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
   const std::string steps = steps_text(system, result.steps);
-  text += fmt::format("\n{} collisions{}in {:.3g} s on {} thread{}: {}\n",
-                      grouped(result.collisions), steps.empty() ? " " : "\n" + steps + "\n",
-                      result.seconds, result.threads, result.threads == 1 ? "" : "s",
-                      pace_text(system, result.collisions, result.steps, result.seconds));
+  text += fmt::format("\n{}{}in {:.3g} s on {}: {}\n", counted(result.collisions, "collision"),
+                      steps.empty() ? " " : "\n" + steps + "\n", result.seconds,
+                      counted(static_cast<std::uint64_t>(result.threads), "thread"),
+                      pace_text(system, {result.collisions}, result.steps, result.seconds));
   if (verbose)
     text += fmt::format("{}\ndigest {:016x}\n", decisions_text(result.decisions), result.digest);
   return output.empty() ? text : text + fmt::format("archive: {}\n", output);

@@ -155,15 +155,17 @@ std::string named(const io::SweepPlan& plan, std::size_t index) {
 std::string head(const SweepResult& result) {
   std::string text;
   for (const io::SweptKey& key : result.plan.keys)
-    text +=
-        fmt::format("{}{} values of {} from {} to {}", text.empty() ? "" : ", ", key.values.size(),
-                    key.key, shown_value(key.values.front()), shown_value(key.values.back()));
-  if (result.rows.empty()) return folded(result.title) + "\n" + folded(text + ": none was computed") + "\n";
+    text += fmt::format("{}{} of {} from {} to {}", text.empty() ? "" : ", ",
+                        counted(key.values.size(), "value"), key.key,
+                        shown_value(key.values.front()), shown_value(key.values.back()));
+  if (result.rows.empty())
+    return folded(result.title) + "\n" + folded(text + ": none was computed") + "\n";
   const Json& first = result.rows.front().report;
   if (const double all = number_at(first, "trajectories"); !std::isnan(all))
-    text += fmt::format(", {} trajectories each", grouped(static_cast<std::uint64_t>(all)));
+    text += fmt::format(", {} each", counted(static_cast<std::uint64_t>(all), "trajectory"));
   const std::string seed = first.find("seed") ? first.find("seed")->text() : "";
-  return folded(result.title) + "\n" + folded(text + fmt::format(", seed {} for each", seed)) + "\n";
+  return folded(result.title) + "\n" + folded(text + fmt::format(", seed {} for each", seed)) +
+         "\n";
 }
 
 std::string table(const SweepResult& result) {
@@ -328,8 +330,8 @@ std::string sweep_text(const SweepResult& result) {
       text += folded(fmt::format("{}: {}", named(result.plan, row.index), doubt)) + "\n";
   text += head(result);
   if (result.status != "completed")
-    text += fmt::format("({}: {} of {} values)\n", result.status, result.rows.size(),
-                        result.plan.systems.size());
+    text += fmt::format("({}: {} of {})\n", result.status, result.rows.size(),
+                        counted(result.plan.systems.size(), "value"));
   if (!result.rows.empty()) text += "\n" + table(result);
   const bool doubtful =
       std::any_of(result.rows.begin(), result.rows.end(), [](const SweepRow& row) {

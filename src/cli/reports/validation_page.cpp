@@ -152,8 +152,8 @@ std::string validation_page(const Validation& all, const std::string& command) {
   page += fmt::format(R"(<p><b class="{}">{} passed, {} failed{}.</b> <code>{}</code>, )",
                       all.failed() > 0 ? "failed" : "passed", all.passed(), all.failed(),
                       all.complete ? "" : ", interrupted", escaped(command));
-  page += fmt::format("{} thread{}, {:.1f} s ({:.1f} s of CPU time).</p>\n", threads,
-                      threads == 1 ? "" : "s", seconds, cpu_seconds);
+  page += fmt::format("{}, {:.1f} s ({:.1f} s of CPU time).</p>\n",
+                      counted(static_cast<std::uint64_t>(threads), "thread"), seconds, cpu_seconds);
   page +=
       "<p>Each case computes a number whose value is known: from a formula, from a paper, or from "
       "an "

@@ -94,7 +94,9 @@ void write_counts(const ArchiveFile& file, const DiffusionResult& result, const 
   write_free_paths(file, result.free_paths);
   const Handle ends =
       file.group("fates", "Numbers of particles by their end before the last report time");
-  write_ends(ends, result, {result.trajectories, result.collisions, result.digest}, file.name());
+  const auto contacts = system.of_discs() ? std::optional(result.contacts) : std::nullopt;
+  write_ends(ends, result, {result.trajectories, result.collisions, result.digest, contacts},
+             file.name());
   if (is_integrated(system)) write_integration(ends.get(), result, file.name());
   hdf5::write_number(ends.get(), energy_change, result.energy_change,
                      {"energy", "With forces: the largest change of a trajectory's energy"},
@@ -125,6 +127,7 @@ void read_counts(hid_t file, const std::string& name, DiffusionResult& result) {
   const EnsembleNumbers numbers = read_ends(ends, name, result);
   result.trajectories = numbers.particles;
   result.collisions = numbers.collisions;
+  result.contacts = numbers.contacts.value_or(0);
   result.digest = numbers.digest;
   read_integration(ends.get(), name, result);
   result.energy_change =

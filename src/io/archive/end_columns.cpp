@@ -37,6 +37,8 @@ void write_ends(const Handle& group, const FateCounts& counts, const EnsembleNum
   for (const Number& fate : fates) write(fate.name, counts.*fate.value, fate.text);
   write("unresolved", counts.unresolved, "Ended where integration could not follow");
   write("collisions", numbers.collisions, "Reflections of all particles");
+  if (numbers.contacts)
+    write("contacts", *numbers.contacts, "Contacts of hard discs, each pair once");
   write("digest", numbers.digest,
         "Sum of a hash of each trajectory's end: other ends, another digest");
 }
@@ -47,7 +49,9 @@ EnsembleNumbers read_ends(const Handle& group, const std::string& name, FateCoun
   };
   for (const Number& fate : fates) counts.*fate.value = read(fate.name);
   counts.unresolved = read_unresolved(group.get(), name);
-  return {read("trajectories"), read("collisions"), read("digest")};
+  EnsembleNumbers numbers{read("trajectories"), read("collisions"), read("digest")};
+  if (hdf5::has(group.get(), "contacts")) numbers.contacts = read("contacts");
+  return numbers;
 }
 
 }  // namespace carom::io

@@ -1,6 +1,7 @@
 // What each kind of ensemble adds up, and the records of trajectories, as datasets.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,7 @@ void read_counts(hid_t file, const std::string& name, LyapunovResult&);
 struct EnsembleNumbers {
   std::uint64_t particles = 0;  ///< of all trajectories
   std::uint64_t collisions = 0, digest = 0;
+  std::optional<std::uint64_t> contacts = {};  ///< of hard discs
 };
 void write_ends(const hdf5::Handle& fates, const FateCounts&, const EnsembleNumbers&,
                 const std::string& name);

@@ -270,7 +270,8 @@ void write_counts(const ArchiveFile& file, const LyapunovResult& result, const S
   if (!sums.parts().empty()) write_replicates(g, sums.parts(), name);
   const Handle ends =
       file.group("fates", "Numbers of particles by their end before the end of the window");
-  write_ends(ends, result, {result.trajectories, result.collisions, result.digest}, name);
+  const auto contacts = system.of_discs() ? std::optional(result.contacts) : std::nullopt;
+  write_ends(ends, result, {result.trajectories, result.collisions, result.digest, contacts}, name);
   if (is_integrated(system)) write_integration(ends.get(), result, name);
 }
 
@@ -313,6 +314,7 @@ void read_counts(hid_t file, const std::string& name, LyapunovResult& result) {
   const EnsembleNumbers numbers = read_ends(ends, name, result);
   result.trajectories = numbers.particles;
   result.collisions = numbers.collisions;
+  result.contacts = numbers.contacts.value_or(0);
   result.repeller = read_repeller(file, name);
   result.digest = numbers.digest;
   read_integration(ends.get(), name, result);
