@@ -14,14 +14,6 @@ double start_of(std::uint64_t bin) {
 }  // namespace
 
 template <int Digits>
-void BinaryBins<Digits>::add(double number, std::uint64_t count) {
-  if (!(number > 0.0)) return;
-  const std::uint64_t bin = number_of(number);
-  reach(bin);
-  counts_[bin - first_] += count;
-}
-
-template <int Digits>
 void BinaryBins<Digits>::merge(const BinaryBins& other) {
   if (other.counts_.empty()) return;
   reach(other.first_);

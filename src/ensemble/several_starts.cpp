@@ -38,7 +38,7 @@ void Sampler::draw_several(const World& world, std::uint64_t first, std::span<St
     const std::size_t count = std::min(most, states.size());
     // Each of these loops has nothing to wait for and nothing to guess.
     for (std::size_t i = 0; i < count; ++i)
-      words[i] = RandomStream::block(system_.run.seed, Purpose::initial_state, first + i, 0, 0);
+      RandomStream::block(system_.run.seed, Purpose::initial_state, first + i, 0, 0, words[i]);
     for (std::size_t i = 0; i < count; ++i) {
       const auto& [right, up, x, y] = words[i];
       positions[i] = ensemble::point_of_box(low, high, RandomStream::uniform(right),

@@ -52,7 +52,9 @@ TEST(RandomStream, BeginsWithAnyBlock) {
   RandomStream all(3, Purpose::initial_state, 4, 5);
   for (std::uint64_t number = 0; number < 10; ++number) {
     RandomStream from(3, Purpose::initial_state, 4, 5, number);
-    for (const std::uint64_t word : RandomStream::block(3, Purpose::initial_state, 4, 5, number)) {
+    RandomStream::Block words;
+    RandomStream::block(3, Purpose::initial_state, 4, 5, number, words);
+    for (const std::uint64_t word : words) {
       EXPECT_EQ(word, all.word());
       EXPECT_EQ(word, from.word());
     }

@@ -23,7 +23,12 @@ class BinaryBins {
 
   /// A finite number; one that is not positive is in no bin.
   void add(double number) { add(number, 1); }
-  void add(double number, std::uint64_t count);
+  void add(double number, std::uint64_t count) {
+    if (!(number > 0.0)) return;
+    const std::uint64_t bin = number_of(number);
+    if (bin - first_ >= counts_.size()) reach(bin);  // one before the first is beyond all, too
+    counts_[bin - first_] += count;
+  }
   void merge(const BinaryBins& other);
 
   /// From the first bin with a count to the last; those between may be empty.

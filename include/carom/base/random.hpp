@@ -23,8 +23,8 @@ class RandomStream {
  public:
   /// Four words that are drawn one after the other.
   using Block = std::array<std::uint64_t, 4>;
-  static Block block(std::uint64_t seed, Purpose purpose, std::uint64_t trajectory,
-                     std::uint64_t particle, std::uint64_t number);
+  static void block(std::uint64_t seed, Purpose purpose, std::uint64_t trajectory,
+                    std::uint64_t particle, std::uint64_t number, Block& words);
 
   /// `first`: the number of the block it begins with.
   RandomStream(std::uint64_t seed, Purpose purpose, std::uint64_t trajectory,
