@@ -293,7 +293,7 @@ class SingleRun {
         const ParticleProgress& before = progress_[p] = options_.resume[p];
         const bool capped = system_.run.collisions > 0 && before.hits >= system_.run.collisions;
         if (gone(before.fate) || capped || (before.fate == Fate::pinned && without_end_)) continue;
-        world_.add(all_[p], before.state, before.hits);
+        world_.add(all_[p], before.state, before.hits, before.speed);
       }
       numbers_.push_back(static_cast<int>(p));
       particles_.push_back(all_[p]);
@@ -360,6 +360,7 @@ class SingleRun {
     const std::size_t p = number(body);
     ParticleProgress& now = progress_[p];
     now.state = world_.state(b);
+    now.speed = world_.particle(b).speed;
     now.hits = world_.hits(b);
     now.contacts += passed_on_->contacts_of(p);
     if (world_.last_wall(b) >= 0) now.last_wall = world_.last_wall(b);

@@ -161,7 +161,7 @@ World World::empty_copy() const {
   return World(std::make_unique<Implementation>(*implementation_));
 }
 
-int World::add(const Particle& particle, const State& state, std::uint64_t hits) {
+int World::add(const Particle& particle, const State& state, std::uint64_t hits, double speed) {
   Implementation& w = *implementation_;
   Body b;
   b.particle = particle;
@@ -174,8 +174,9 @@ int World::add(const Particle& particle, const State& state, std::uint64_t hits)
   const bool forces = w.regions.any(), by_range = w.regions.by_range();
   // A particle that rests may be met by one that comes within its range.
   const bool integrated = forces && (w.regions.hold(state.position) || (by_range && rests));
-  // Under forces the speed is not a constant: this is that of the start.
-  if (forces) b.particle.speed = std::sqrt(dot(state.velocity, state.velocity));
+  // Under forces and of discs the speed is not a constant: this is that of the start.
+  if (forces || w.discs)
+    b.particle.speed = speed > 0.0 ? speed : std::sqrt(dot(state.velocity, state.velocity));
   if (w.discs) w.discs->check(b);
   if (!forces)
     if (const std::string fault = w.scales.fault(b.particle); !fault.empty())

@@ -1,6 +1,7 @@
 // carom compare and carom schemes as users call them.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <string>
 
 #include "carom/integrators/scheme.hpp"
@@ -52,6 +53,20 @@ TEST(Comparisons, SayWhyAreasAreNotMeasured) {
   EXPECT_NE(o.out.find("\"areas_reason\": \"none of"), std::string::npos) << o.out;
   EXPECT_NE(on_one_line(text.out).find("areas not measured (none of"), std::string::npos)
       << text.out;
+}
+
+// The adaptive ones, too, look for particles within a range once a step.
+TEST(Comparisons, AdaptiveSchemesMoveParticlesThatMeetWithinARange) {
+  const Shell shell;
+  std::ofstream(shell.folder() + "/yukawa.toml") << R"toml(
+table = { shape = "rectangle", width = 4, height = 3 }
+particles = { count = 2, energy = 4 }
+interaction = { kind = "yukawa", strength = 0.1, range = 0.01 }
+)toml";
+  const Outcome o =
+      shell("$carom compare ./yukawa.toml --t-max 0.5 --schemes arkode,velocity-verlet --json");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_TRUE(is_json_object(o.out));
 }
 
 TEST(Comparisons, SchemesAreListedALineEach) {

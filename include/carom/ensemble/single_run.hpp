@@ -23,7 +23,8 @@ class World;
 /// Everything that a particle's future depends on. A run continued from it repeats the
 /// uninterrupted one bit for bit.
 struct ParticleProgress {
-  State state;  ///< after its last event: exact
+  State state;         ///< after its last event: exact
+  double speed = 0.0;  ///< what its reflections keep; the velocity may differ from it by rounding
   std::uint64_t hits = 0;
   std::uint64_t contacts = 0;  ///< with other hard discs
   std::int32_t last_wall = -1;

@@ -48,6 +48,7 @@ Rounding rounding_of(double size, double spread) {
 }
 
 std::string with_error(double value, double error) {
+  if (std::isnan(value)) return "-";
   if (!(error > 0.0) || !std::isfinite(error)) return fmt::format("{:.6g}", value);
   const Rounding rounded = rounding_of(std::max(std::fabs(value), error), error);
   return rounded(value) + " +- " + rounded(error);

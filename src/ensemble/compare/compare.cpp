@@ -144,8 +144,7 @@ class Comparing {
     const double step = scheme.adaptive ? setting_.longest_step : longest_followed(scheme);
     if (step > 0.0) {
       const double tolerance = scheme.adaptive ? scheme.runs.back().tolerance : 0.0;
-      scheme.areas = defect_of_areas(runs_, setting_,
-                                     runs_.by(name, scheme.adaptive ? 0.0 : step, tolerance), step);
+      scheme.areas = defect_of_areas(runs_, setting_, by(name, step, tolerance), step);
       scheme.areas_step = step;
     }
     return scheme;
@@ -154,8 +153,16 @@ class Comparing {
  private:
   ComparedRun one(const std::string& name, double step, double tolerance) const {
     return compared(setting_,
-                    runs_.fly(runs_.by(name, step, tolerance), setting_.t, Runs::Part::everything),
-                    step, tolerance);
+                    runs_.fly(by(name, step, tolerance), setting_.t, Runs::Part::everything), step,
+                    tolerance);
+  }
+  /// The adaptive ones choose their steps; but particles that meet within a range are looked for
+  /// once a step.
+  Dynamics by(const std::string& name, double step, double tolerance) const {
+    const auto& forces = runs_.system().dynamics.forces;
+    const bool by_range = forces && forces->interacts() && std::isfinite(forces->pair_range());
+    if (is_adaptive(name)) step = by_range ? setting_.longest_step : 0.0;
+    return runs_.by(name, step, tolerance);
   }
 
   void run_steps(ComparedScheme& scheme) const {

@@ -83,12 +83,11 @@ DiscContacts::DiscContacts(const Table& table, const Dynamics& dynamics, Bodies&
       interrupt_(interrupt),
       contacts_(table.lattice ? &*table.lattice : nullptr) {}
 
-void DiscContacts::check(Body& b) const {
+void DiscContacts::check(const Body& b) const {
   if (std::find(radii_.begin(), radii_.end(), b.particle.radius) == radii_.end())
     throw std::invalid_argument("the particle's radius is none of the discs'");
   if (b.particle.radius > contacts_.largest_radius())
     throw std::invalid_argument("the disc overlaps its own copies on the lattice");
-  b.particle.speed = std::sqrt(dot(b.state.velocity, b.state.velocity));
   Contacts::Disc disc;
   set_course(disc, b);
   const int other = contacts_.overlapped(disc);

@@ -27,7 +27,7 @@ class DiscContacts {
 
   /// A disc that is to be added: its speed becomes that of its velocity. Throws
   /// std::invalid_argument if it overlaps another.
-  void check(Body& b) const;
+  void check(const Body& b) const;
   void add(int index);
   void clear();
   /// Finds the contacts of discs that have been added. False if that was interrupted.

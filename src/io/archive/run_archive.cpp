@@ -61,6 +61,11 @@ const StateField state_fields[] = {
      nullptr},
     {"vx", true, {"length/time", "Velocity"}, [](P p) { return p.state.velocity.x; }, nullptr},
     {"vy", true, {"length/time", "Velocity"}, [](P p) { return p.state.velocity.y; }, nullptr},
+    {"speed",
+     true,
+     {"length/time", "What reflections keep; the velocity may differ from it by rounding"},
+     [](P p) { return p.speed; },
+     nullptr},
     {"cell_first",
      false,
      {"1", "Cell of the lattice"},
@@ -281,6 +286,10 @@ void RunArchive::Implementation::create_state(std::size_t particles) {
 }
 
 void RunArchive::Implementation::reopen(const LoadedSystem& loaded, const Provenance& origin) {
+  if (hdf5::has(file.open_group("collisions").get(), "u"))
+    throw InputError(Place{file.name(), 0, 0, ""},
+                     "was begun by an earlier build, whose hits have a column 'u'",
+                     "an archive of this one: run it again");
   file.extend_head(loaded, origin);
   {
     const Handle group = file.open_group("collisions");

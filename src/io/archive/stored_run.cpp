@@ -44,18 +44,19 @@ StoredRun read_run(const std::string& name) {
   const auto u = reals("u"), x = reals("x"), y = reals("y"), vx = reals("vx"), vy = reals("vy"),
              high = reals("t_high"), low = reals("t_low"), end_high = reals("end_high"),
              end_low = reals("end_low");
-  const auto energies = [&](const char* field) {
+  const auto later = [&](const char* field) {  // 0 in archives of earlier builds
     const bool there = hdf5::has(state.get(), field);
     return there ? reals(field) : std::vector<double>(wall.size(), 0.0);
   };
-  const auto change = energies("energy_change"), largest = energies("energy_largest"),
-             kinetic = energies("energy_kinetic");
+  const auto change = later("energy_change"), largest = later("energy_largest"),
+             kinetic = later("energy_kinetic"), speed = later("speed");
   for (std::size_t i = 0; i < wall.size(); ++i) {
     ParticleProgress p;
     p.state.wall = static_cast<int>(wall[i]);
     p.state.u = u.at(i);
     p.state.position = {x.at(i), y.at(i)};
     p.state.velocity = {vx.at(i), vy.at(i)};
+    p.speed = speed.at(i);
     p.state.cell = {first.at(i), second.at(i)};
     p.state.time = {high.at(i), low.at(i)};
     p.end = {end_high.at(i), end_low.at(i)};
