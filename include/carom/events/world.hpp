@@ -48,8 +48,8 @@ class World {
   /// trajectory goes on. A state of a later time than that of the loop is injected then. Hard discs
   /// (Particle::radius > 0): no disc may overlap another, else std::invalid_argument; the velocity
   /// may be of any length, and their positions and those of their hits are those of their centres.
-  /// `speed`: what reflections keep of one that goes on (World::particle), whose velocity may differ
-  /// from it by rounding; 0: under forces and of discs the length of the velocity.
+  /// `speed`: what reflections keep of one that goes on (World::particle), whose velocity may
+  /// differ from it by rounding; 0: under forces and of discs the length of the velocity.
   int add(const Particle& particle, const State& state, std::uint64_t hits = 0, double speed = 0.0);
   /// Removes all particles and sets the clock to 0; keeps the prepared table.
   void clear();
