@@ -74,9 +74,14 @@ const std::vector<std::uint64_t>& reported_hits() {
   return numbers;
 }
 
-struct SurvivalCounts::Ends {
-  analysis::SortedEnds times, hits;
-};
+namespace {
+
+const analysis::SortedEnds& ends_of_hits() {
+  static const analysis::SortedEnds ends({reported_hits().begin(), reported_hits().end()});
+  return ends;
+}
+
+}  // namespace
 
 SurvivalCounts::SurvivalCounts(std::vector<double> report_times, std::size_t holes,
                                bool quasi_random)
@@ -84,9 +89,7 @@ SurvivalCounts::SurvivalCounts(std::vector<double> report_times, std::size_t hol
   gone_in.resize(times.size());
   gone_in_hits.resize(reported_hits().size());
   hole_escapes.resize(holes);
-  ends_ = std::make_shared<const Ends>(Ends{
-      analysis::SortedEnds(times),
-      analysis::SortedEnds(std::vector<double>(reported_hits().begin(), reported_hits().end()))});
+  ends_ = std::make_shared<const analysis::SortedEnds>(times);
   if (quasi_random) parts.assign(replicates, {*this, 0});
 }
 
@@ -103,8 +106,8 @@ void SurvivalCounts::add(Fate fate, double time, std::uint64_t hits, int hole,
     fewest_hits_of_survivor = std::min(fewest_hits_of_survivor, hits);
   if (part) part->followed += followed() - before;
   if (fate != Fate::escaped && fate != Fate::unbounded) return;
-  const std::size_t by_time = ends_->times.first_from(time),
-                    by_hits = ends_->hits.first_from(static_cast<double>(hits));
+  const std::size_t by_time = ends_ ? ends_->first_from(time) : 0,
+                    by_hits = ends_of_hits().first_from(static_cast<double>(hits));
   const auto count_in = [&](GoneCounts& sum) {
     if (fate == Fate::escaped && hole >= 0) ++sum.hole_escapes.at(static_cast<std::size_t>(hole));
     if (by_time < sum.gone_in.size()) ++sum.gone_in[by_time];

@@ -11,6 +11,15 @@
 namespace carom {
 namespace {
 
+// As a sum to which parts are added.
+TEST(Survival, CountsMadeWithoutTimesCount) {
+  SurvivalCounts counts;
+  counts.add(Fate::escaped, 3.0, 5, -1);
+  EXPECT_EQ(counts.escaped, 1u);
+  EXPECT_TRUE(counts.gone_in.empty());
+  EXPECT_EQ(counts.gone_at.total(), 1u);
+}
+
 TEST(Wilson, HasTheTabulatedEnds) {
   // (k, n) and the ends to four digits, from the closed form by hand.
   const Interval none = wilson_interval(0, 10), half = wilson_interval(5, 10),

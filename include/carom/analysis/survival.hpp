@@ -12,6 +12,10 @@
 
 namespace carom {
 
+namespace analysis {
+class SortedEnds;
+}
+
 /// Numbers of hits n at which survival by hits is reported: 0, 1, 2, 3, 5, 10, 20, 30, 50, … <
 /// 2^63.
 const std::vector<std::uint64_t>& reported_hits();
@@ -63,8 +67,7 @@ struct SurvivalCounts : FateCounts, GoneCounts {
   std::uint64_t followed() const { return trajectories - singular - unresolved - lost; }
 
  private:
-  struct Ends;
-  std::shared_ptr<const Ends> ends_;  ///< of bins of times and hits, for `add`
+  std::shared_ptr<const analysis::SortedEnds> ends_;  ///< of bins of times; none: no times
 };
 
 /// Share `p` that is still there at time t, with its 95 % interval (low, high).
