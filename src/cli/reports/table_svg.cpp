@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"
 #include "carom/geometry/curve_frame.hpp"
 #include "carom/geometry/hull.hpp"
@@ -64,7 +65,7 @@ double axis_angle(const geometry::Curve& curve, bool& axis_is_major) {
     ratio = ellipse->ratio;
   }
   axis_is_major = ratio <= 1.0;
-  return -std::atan2(axis.y, axis.x) * 180.0 / 3.14159265358979324;
+  return -elementary::atan2(axis.y, axis.x) * 180.0 / 3.14159265358979324;
 }
 
 // The piece of a curve from u to v as SVG path commands that go on from the point at u. At most a

@@ -49,7 +49,7 @@ class BitWriter {
   std::uint32_t used_ = 0;  ///< how many
 };
 
-/// A stream of zlib (RFC 1950), made by whoever knows what is worth looking for. Each function adds
+/// A stream of zlib (RFC 1950), where it is known what is worth looking for. Each function adds
 /// bytes as a block of its own, as they are where its way would not make them shorter.
 class Deflate {
  public:
