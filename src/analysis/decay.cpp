@@ -158,12 +158,15 @@ double drift(const Seen& seen, bool truncated, Asked asked) {
 double square(double x) { return x * x; }
 
 constexpr double least_p = 0.1;
+// One in a hundred of the true laws is called refuted.
+constexpr double refuted_p = 0.01;
 constexpr double largest_drift = 1.0;
 
 struct Candidate {
   Decay decay;
   double drift;  ///< infinite where the test of the decay has failed anyway
 };
+bool may_describe(const Candidate& one) { return one.decay.p_value >= least_p; }
 
 /// `at_start`: share of all that is there at the start a of the window.
 std::optional<Candidate> fit(DecayLaw law, bool with_plateau, const Seen& seen, double a,
@@ -206,9 +209,10 @@ std::optional<Candidate> fit(DecayLaw law, bool with_plateau, const Seen& seen, 
     d.plateau_error = d.plateau * std::sqrt(start_variance + variance / square(c));
   }
   d.p_value = p_value(seen, d.rate, c, stay, 1);
-  const bool may_describe = d.p_value >= least_p;  // two more fits tell whether it drifts
-  return Candidate{
-      d, may_describe ? drift(seen, with_plateau, asked) : std::numeric_limits<double>::infinity()};
+  Candidate one{d, std::numeric_limits<double>::infinity()};
+  // Two more fits tell whether it drifts.
+  if (may_describe(one)) one.drift = drift(seen, with_plateau, asked);
+  return one;
 }
 
 /// Where evidence is asked for, the best first.
@@ -251,9 +255,7 @@ constexpr double decisive = 2.995732273553991;
 // Starts that are tried lie a factor of 2^(1/4) apart.
 constexpr std::size_t between_starts = 16;
 
-bool describes(const Candidate& one) {
-  return one.decay.p_value >= least_p && one.drift < largest_drift;
-}
+bool describes(const Candidate& one) { return may_describe(one) && one.drift < largest_drift; }
 
 double count_of(std::span<const EscapeTimes::Bin> bins) {
   double sum = 0.0;
@@ -261,22 +263,31 @@ double count_of(std::span<const EscapeTimes::Bin> bins) {
   return sum;
 }
 
-/// The number of the bin where the window begins, or that of bins.
-std::size_t latest_start(std::span<const EscapeTimes::Bin> bins, double end, double there,
-                         double particles) {
+/// The latest window that the data allow.
+struct Window {
+  std::size_t first;            ///< bin, or the number of bins if there is no window
+  std::vector<Candidate> fits;  ///< the best first
+};
+
+Window latest_window(std::span<const EscapeTimes::Bin> bins, double end, double there,
+                     double particles) {
+  const auto fits = [&](std::size_t first, Asked asked) {
+    return all_fits(bins.subspan(first), end, there, particles, asked);
+  };
   for (std::size_t i = 0; i < bins.size(); i += between_starts) {
     const double escapes = count_of(bins.subspan(i));
     if (escapes < fewest) break;
-    const std::vector<Candidate> fits =
-        all_fits(bins.subspan(i), end, there, particles, Asked::description);
-    if (std::none_of(fits.begin(), fits.end(), describes)) continue;
+    if (std::ranges::none_of(fits(i, Asked::description), describes)) continue;
     const double wanted = std::max(fewest, share_of_escapes * escapes);
     double left = escapes;
-    while (left - static_cast<double>(bins[i].count) >= wanted)
-      left -= static_cast<double>(bins[i++].count);
-    return i;
+    std::size_t first = i;
+    while (left - static_cast<double>(bins[first].count) >= wanted)
+      left -= static_cast<double>(bins[first++].count);
+    // A law may describe all of these and still not the last of them.
+    Window found{first, fits(first, Asked::evidence)};
+    if (found.fits.empty() || found.fits[0].decay.p_value >= refuted_p) return found;
   }
-  return bins.size();
+  return {bins.size(), {}};
 }
 
 }  // namespace
@@ -307,24 +318,22 @@ DecayFit fit_bins(std::vector<EscapeTimes::Bin> bins, std::uint64_t particles,
     if (end < window->second) end = std::min(until, EscapeTimes::bin_of(window->second).to);
   }
   const double all = static_cast<double>(particles);
-  std::size_t first = 0;
   if (count_of(bins) < fewest) {
     result.why_none = window ? "fewer than 100 escapes in the window" : "fewer than 100 escapes";
     return result;
   }
-  if (!window) first = latest_start(bins, end, there, all);
-  if (first == bins.size()) {
+  const Window chosen = window ? Window{0, all_fits(bins, end, there, all, Asked::evidence)}
+                               : latest_window(bins, end, there, all);
+  if (chosen.first == bins.size()) {
     result.why_none = "no law describes the last 100 escapes";
     return result;
   }
-  const std::span<const EscapeTimes::Bin> used(bins.begin() + static_cast<std::ptrdiff_t>(first),
-                                               bins.end());
-  for (const Candidate& one : all_fits(used, end, there, all, Asked::evidence))
-    result.decays.push_back(one.decay);
+  for (const Candidate& one : chosen.fits) result.decays.push_back(one.decay);
   if (result.decays.empty()) {
     result.why_none = "the escapes do not become rarer";
     return result;
   }
+  const auto used = std::span(bins).subspan(chosen.first);
   result.from = used.front().from;
   result.to = end;
   result.escapes = static_cast<std::uint64_t>(count_of(used));

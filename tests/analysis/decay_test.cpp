@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -124,6 +125,26 @@ TEST(Decay, LeavesOutTheBeginning) {
     EXPECT_GE(static_cast<double>(count.right), 0.95 * static_cast<double>(count.trials))
         << ensemble.name;
     expect_intervals(count, ensemble);
+  }
+}
+
+// No law of the list holds to the end: a power that turns into an exponential. One may describe all
+// escapes and not the last of them, in whose window it would be printed.
+TEST(Decay, DescribesTheWindowThatItFinds) {
+  const Ensemble bent{
+      "a power before an exponential",
+      1000,
+      [](Generator& g) { return std::min(power(g, 1.5), 1 + exponential(g, 1.0 / 15)); },
+      "",
+      0,
+      0,
+      0};
+  Generator generator(1);
+  for (int trial = 0; trial < 60; ++trial) {
+    const DecayFit fit = fit_of(bent, 20000, generator);
+    if (!fit.decays.empty()) {
+      EXPECT_GE(fit.decays[0].p_value, 0.01) << trial;
+    }
   }
 }
 
