@@ -193,5 +193,21 @@ TEST(Titles, SayWhatWasChanged) {
   EXPECT_EQ(load_system("stadium", overrides).system.title, "mine");
 }
 
+// Where there are no walls, taking their holes away makes no table.
+TEST(OpenPlanes, AreClosedAsTheyAre) {
+  SystemOverrides overrides;
+  overrides.set = {{"table.hole", "[]"}};
+  const LoadedSystem closed = load_system("henon-heiles", overrides);
+  EXPECT_EQ(closed.resolved_toml.find("[table]"), std::string::npos);
+  EXPECT_TRUE(closed.system.table->walls.empty());
+  overrides.set.emplace_back("table.radius", "1");
+  try {
+    load_system("henon-heiles", overrides);
+    FAIL() << "a radius is no shape";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.place().key, "table.shape");
+  }
+}
+
 }  // namespace
 }  // namespace carom::tests

@@ -130,9 +130,12 @@ bool has_default_times(const Value& root, const Value& t_max) {
 void set_path(Value& root, const std::string& path, Value value) {
   const std::vector<Step> steps = steps_of(path);
   const Place place = value.place;
+  Place made = place;  // of a section that is not there yet
+  made.key.clear();
   Value* at = &root;
   for (std::size_t k = 0; k < steps.size(); ++k) {
     const Step& step = steps[k];
+    made.key += (k == 0 ? "" : ".") + step.key;
     if (at->kind != Value::Kind::table) {
       throw InputError(place, "'" + steps[k - 1].key + "' is " + name_of(at->kind) +
                                   ", it has no key '" + step.key + "'");
@@ -142,7 +145,7 @@ void set_path(Value& root, const std::string& path, Value value) {
     Value* next = at->find(step.key);
     if (next == nullptr) {
       const Value::Kind kind = step.indices.empty() ? Value::Kind::table : Value::Kind::list;
-      next = &at->set(step.key, empty(kind, place));
+      next = &at->set(step.key, empty(kind, made));
     }
     for (const std::size_t index : step.indices) {
       if (next->kind != Value::Kind::list) {
@@ -153,7 +156,7 @@ void set_path(Value& root, const std::string& path, Value value) {
             place, "there is no '" + step.key + "[" + std::to_string(index) + "]'",
             "an index below " + std::to_string(next->items.size()) + ", or that to append");
       }
-      if (index == next->items.size()) next->items.push_back(empty(Value::Kind::table, place));
+      if (index == next->items.size()) next->items.push_back(empty(Value::Kind::table, made));
       next = &next->items[index];
     }
     if (last) {

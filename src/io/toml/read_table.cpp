@@ -124,9 +124,18 @@ void read_lattice(Value& value, TableSpec& spec) {
   spec.lattice = LatticeSpec{points[0], points[1], vectors.place};
 }
 
+// --closed where there are no walls.
+bool takes_holes_of_nothing(const Value& root) {
+  const Value* table = root.find("table");
+  const Value* holes = table == nullptr ? nullptr : table->find("hole");
+  return holes != nullptr && table->entries.size() == 1 && holes->kind == Value::Kind::list &&
+         holes->items.empty();
+}
+
 }  // namespace
 
 TableSpec read_table(Value& root) {
+  if (takes_holes_of_nothing(root)) root.erase("table");
   Value* table = root.find("table");
   if (table == nullptr) {
     // Forces may hold the particles; without forces the table was forgotten.
