@@ -4,17 +4,22 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <numeric>
+#include <queue>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../scratch_folder.hpp"
 #include "io/archive/columns.hpp"
 #include "io/archive/deflate.hpp"
 #include "io/archive/hdf5.hpp"
+#include "io/archive/prefix_code.hpp"
 #include "io/archive/sums.hpp"
 
 namespace carom::io::hdf5 {
@@ -167,7 +172,7 @@ TEST(Deflate, AnyBlockHoldsAnyBytes) {
   Deflate deflate;
   Random random(4);
   using Way = void (Deflate::*)(std::span<const std::uint8_t>);
-  const Way ways[] = {&Deflate::plain, &Deflate::literals, &Deflate::runs, &Deflate::words};
+  const Way ways[] = {&Deflate::plain, &Deflate::literals, &Deflate::runs, &Deflate::values};
   for (int round = 0; round < 400; ++round) {
     // Of 1 to 70 000 bytes in up to four parts: noise, few values, or long runs of one byte.
     Bytes bytes(1 + random() % (round % 10 == 0 ? 70'000 : 3000));
@@ -199,6 +204,87 @@ TEST(Deflate, LengthsOfCopiesAreAllRight) {
   deflate.start(bytes.size(), 1);
   deflate.runs(bytes);
   reader.expect(bytes, {deflate.finish(adler32(bytes.data(), bytes.size())), false}, "runs");
+}
+
+// Each byte as often as the two rarer ones together: words of Huffman's code are then longer than
+// the format allows.
+TEST(Deflate, RareBytesGetNoWordsThatAreTooLong) {
+  Reader reader;
+  Deflate deflate;
+  ChunkPacker packer;
+  Random random(6);
+  Bytes bytes;
+  std::size_t often = 1, before = 0;
+  for (std::uint8_t byte = 0; byte < 24; ++byte) {
+    bytes.insert(bytes.end(), often, byte);
+    before = std::exchange(often, often + before);
+  }
+  bytes.resize(bytes.size() / 8 * 8);
+  for (const char* const what : {"sorted", "shuffled"}) {
+    for (const auto way : {&Deflate::literals, &Deflate::runs, &Deflate::values}) {
+      deflate.start(bytes.size(), 1);
+      (deflate.*way)(bytes);
+      reader.expect(bytes, {deflate.finish(adler32(bytes.data(), bytes.size())), false}, what);
+    }
+    reader.expect(bytes, packer.pack(bytes, 1), what);
+    std::shuffle(bytes.begin(), bytes.end(), random);
+  }
+}
+
+std::uint64_t bits_of(const std::vector<std::uint32_t>& counts,
+                      const std::vector<std::uint8_t>& lengths) {
+  return std::inner_product(counts.begin(), counts.end(), lengths.begin(), std::uint64_t{0});
+}
+// The least sum of bits without a limit: each node of Huffman's tree costs its symbols a bit.
+std::uint64_t fewest_bits(const std::vector<std::uint32_t>& counts) {
+  std::priority_queue<std::uint64_t, std::vector<std::uint64_t>, std::greater<>> left;
+  for (const std::uint32_t count : counts)
+    if (count > 0) left.push(count);
+  std::uint64_t bits = 0;
+  while (left.size() > 1) {
+    std::uint64_t node = left.top();
+    left.pop();
+    node += left.top();
+    left.pop();
+    bits += node;
+    left.push(node);
+  }
+  return bits;
+}
+
+TEST(PrefixCode, IsCompleteAndAboutTheShortestWithinItsLimit) {
+  Random random(7);
+  for (int round = 0; round < 400; ++round) {
+    const unsigned longest = round % 3 == 0 ? 7 : round % 3 == 1 ? 12 : 15;
+    const std::size_t symbols = 2 + random() % (longest == 7 ? 18 : 285);
+    std::vector<std::uint32_t> counts(symbols);
+    std::uint32_t a = 1, b = 1;
+    for (std::uint32_t& count : counts) {
+      if (round % 4 == 0) count = static_cast<std::uint32_t>(random() % 50);
+      if (round % 4 == 1) count = 1u << random() % 22;
+      if (round % 4 == 2) count = std::exchange(a, std::exchange(b, (a + b) % 3'000'000));
+      if (round % 4 == 3) count = 1u + static_cast<std::uint32_t>(random() % 2);
+    }
+    counts[0] = counts[1] = 1;
+    std::shuffle(counts.begin(), counts.end(), random);
+    const std::vector<std::uint8_t> lengths = code_lengths(counts, longest);
+    ASSERT_EQ(lengths.size(), symbols);
+    std::uint64_t taken = 0;
+    for (std::size_t i = 0; i < symbols; ++i) {
+      ASSERT_EQ(lengths[i] > 0, counts[i] > 0);
+      ASSERT_LE(lengths[i], longest);
+      if (lengths[i] > 0) taken += std::uint64_t{1} << (longest - lengths[i]);
+      for (std::size_t j = 0; j < symbols; ++j)
+        ASSERT_FALSE(counts[i] > 0 && counts[i] < counts[j] && lengths[i] < lengths[j]);
+    }
+    EXPECT_EQ(taken, std::uint64_t{1} << longest);  // no word is left over: zlib asks for that
+    const std::uint64_t bits = bits_of(counts, lengths), fewest = fewest_bits(counts);
+    const bool limited = *std::max_element(lengths.begin(), lengths.end()) == longest;
+    if (limited)
+      EXPECT_LE(bits, fewest + fewest / 4);
+    else
+      EXPECT_EQ(bits, fewest);
+  }
 }
 
 // The definitions.

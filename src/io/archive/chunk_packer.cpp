@@ -15,11 +15,11 @@ constexpr std::size_t widest = 8;
 
 enum class Way { plain, literals, runs };
 
-// What some rows say of all: a way for the bytes at each place of a value (a plane), or whether
-// values as a whole are often the one before.
+// What some rows say of all: a way for the bytes at each place of a value (a plane), and whether it
+// is better to leave values whole, as they are often the one before.
 struct Look {
   Way way[widest];
-  bool words;
+  bool whole;
 };
 
 double information(double count) { return count > 0.0 ? count * std::log2(count) : 0.0; }
@@ -35,10 +35,10 @@ Look look_at(const std::uint8_t* values, std::size_t count, std::size_t size) {
   std::size_t same[widest] = {}, like_before = 0, seen = 0;
   const std::size_t step = std::max<std::size_t>(1, count / some);
   for (std::size_t row = step; row < count && seen < some; row += step, ++seen) {
-    const std::uint8_t* at = values + row * size;
+    const std::uint8_t *at = values + row * size, *before = at - size;
     bool middle = true;
     for (std::size_t k = 0; k < size; ++k) {
-      const bool equal = at[k] == at[k - size];
+      const bool equal = at[k] == before[k];
       ++counts[k][at[k]];
       same[k] += equal;
       middle = middle && (equal || k == 0 || k == widest - 1);
@@ -59,7 +59,7 @@ Look look_at(const std::uint8_t* values, std::size_t count, std::size_t size) {
     by_planes += look.way[k] == Way::plain ? 1.0 : std::min(bits / 8.0, 2.0 * changes);
   }
   const double copied = static_cast<double>(like_before) / n;
-  look.words = size == widest && 8.0 * (1.0 - copied) + copied < by_planes;
+  look.whole = size == widest && 8.0 * (1.0 - copied) + copied < by_planes;
   return look;
 }
 
@@ -115,8 +115,8 @@ ChunkPacker::Packed ChunkPacker::pack(std::span<const std::uint8_t> values, std:
   const std::size_t count = values.size() / size;
   const Look look = look_at(values.data(), count, size);
   deflate_.start(values.size(), size);
-  if (look.words) {
-    deflate_.words(values);
+  if (look.whole) {
+    deflate_.values(values);
     return {deflate_.finish(adler32(values.data(), values.size())), false};
   }
   planes_.resize(values.size());

@@ -18,10 +18,10 @@ class ChunkPacker {
   struct Packed {
     /// What deflate leaves. Valid until the next chunk.
     std::span<const std::uint8_t> bytes;
-    /// By shuffle before; else deflate alone makes the chunk.
+    /// They hold planes: a reader's filter shuffle has to put values together again.
     bool shuffled;
   };
-  /// `size`: bytes of a value, at most 8; all together at most 2^22.
+  /// `size`: bytes of a value, 1, 2, 4 or 8; of all together less than 2^22.
   Packed pack(std::span<const std::uint8_t> values, std::size_t size);
 
  private:

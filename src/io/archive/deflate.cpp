@@ -10,7 +10,7 @@ namespace carom::io::hdf5 {
 
 namespace {
 
-constexpr unsigned longest_word = 12;  // of 15 allowed: four words and a rest of seven bits fit 56
+constexpr unsigned longest_word = 12;  // of 15 allowed: four of them are put at once
 constexpr std::size_t most_plain = 65535, longest_copy = 258, shortest_copy = 3;
 constexpr std::size_t head_bits = 3 + 32 + 7;  // of plain bytes
 
@@ -85,11 +85,11 @@ class ByteCounter {
   std::uint32_t several_[4][256] = {};
 };
 
-std::uint64_t word_at(const std::uint8_t* bytes) {
-  std::uint64_t word = 0;
-  std::memcpy(&word, bytes, sizeof word);
-  if constexpr (std::endian::native == std::endian::big) word = __builtin_bswap64(word);
-  return word;
+std::uint64_t value_at(const std::uint8_t* bytes) {
+  std::uint64_t value = 0;
+  std::memcpy(&value, bytes, sizeof value);
+  if constexpr (std::endian::native == std::endian::big) value = __builtin_bswap64(value);
+  return value;
 }
 
 // Four words, at most 48 bits, at once.
@@ -116,8 +116,8 @@ CAROM_INLINE void put(BitWriter& out, Joined words) {
 
 }  // namespace
 
-// A block has a head, and may end within a byte. Words of twelve bits for bytes may be in a block
-// that is given up.
+// A block has a head, and may end within a byte. A block that is given up may have words of twelve
+// bits for all of its bytes.
 void Deflate::start(std::size_t size, std::size_t parts) {
   constexpr std::size_t head = 6, codes = 512;
   stream_.resize(size + size / 2 + head * (parts + size / most_plain) + codes);
@@ -196,7 +196,7 @@ void Deflate::runs(std::span<const std::uint8_t> bytes) {
     const std::uint8_t byte = bytes[i];
     const std::uint64_t eight = byte * 0x0101010101010101u;
     std::size_t same = i + 1;
-    while (same + 8 <= bytes.size() && word_at(&bytes[same]) == eight) same += 8;
+    while (same + 8 <= bytes.size() && value_at(&bytes[same]) == eight) same += 8;
     while (same < bytes.size() && bytes[same] == byte) ++same;
     ++counts[byte];
     tokens_.push_back(byte);
@@ -228,9 +228,9 @@ void Deflate::runs(std::span<const std::uint8_t> bytes) {
   out_ = out;
 }
 
-// The code is that of some of the rows; every byte has a word. It may turn out that it does not fit
-// the others.
-void Deflate::words(std::span<const std::uint8_t> bytes) {
+// The code is made for some of the rows, with a word for every byte. It may turn out that it does
+// not fit the others.
+void Deflate::values(std::span<const std::uint8_t> bytes) {
   constexpr std::uint64_t first = 0xffu, last = first << 56, middle = ~(first | last);
   constexpr std::size_t some = 4096;  // rows
   const std::size_t rows = bytes.size() / 8, step = std::max<std::size_t>(1, rows / some);
@@ -242,7 +242,7 @@ void Deflate::words(std::span<const std::uint8_t> bytes) {
   std::size_t extra = 0;
   for (std::size_t i = 1; i < rows; i += step) {
     const std::uint8_t* at = &bytes[8 * i];
-    const std::uint64_t change = word_at(at) ^ word_at(at - 8);
+    const std::uint64_t change = value_at(at) ^ value_at(at - 8);
     if ((change & middle) != 0) {
       counter.add<8>(at);
       continue;
@@ -259,10 +259,10 @@ void Deflate::words(std::span<const std::uint8_t> bytes) {
   const Bits* words = words_.data();
   const Bits* copies = words + length_of(8).symbol;
   BitWriter out = out_;
-  std::uint64_t before = ~word_at(bytes.data());
+  std::uint64_t before = ~value_at(bytes.data());
   for (std::size_t i = 0; i < rows; ++i) {
     const std::uint8_t* at = &bytes[8 * i];
-    const std::uint64_t now = word_at(at), change = now ^ before;
+    const std::uint64_t now = value_at(at), change = now ^ before;
     before = now;
     if ((change & middle) != 0) {
       put(out, four(words, at));

@@ -60,9 +60,9 @@ class Deflate {
   void literals(std::span<const std::uint8_t> bytes);
   /// The same of bytes that often are the one before.
   void runs(std::span<const std::uint8_t> bytes);
-  /// The same of words of eight bytes of which many are the one before but for the first and the
+  /// The same of values of eight bytes of which many are the one before but for the first and the
   /// last byte: reals whose sign or last digits change.
-  void words(std::span<const std::uint8_t> bytes);
+  void values(std::span<const std::uint8_t> bytes);
   /// `sum`: Adler-32 of all bytes. The stream is valid until the next start.
   std::span<const std::uint8_t> finish(std::uint32_t sum);
 
@@ -71,13 +71,13 @@ class Deflate {
   static constexpr std::size_t end_of_block = 256, symbols = 286;
   using Counts = std::array<std::uint32_t, symbols>;
   /// Writes the head of a block of `size` bytes as such symbols, with copies of what is `distance`
-  /// bytes before, and takes its words; false where plain bytes take less. `extra`: bits of the
-  /// block besides the words.
+  /// bytes before, and takes the words of its code; false where plain bytes take less. `extra`:
+  /// bits of the block besides the words.
   bool begin(Counts& counts, std::size_t distance, std::size_t extra, std::size_t size);
 
   std::vector<std::uint8_t> stream_;
   BitWriter out_{nullptr};
-  std::vector<Bits> words_;            ///< of the block
+  std::vector<Bits> words_;            ///< of the block's code, by symbol
   std::vector<std::uint16_t> tokens_;  ///< of runs
 };
 

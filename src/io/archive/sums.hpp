@@ -12,7 +12,7 @@ std::uint32_t crc32(const void* bytes, std::size_t size, std::uint32_t before = 
 /// Adler-32, which ends a stream of zlib.
 std::uint32_t adler32(const void* bytes, std::size_t size);
 
-/// The sum of HDF5's filter Fletcher-32.
+/// The sum of HDF5's filter Fletcher-32, of less than 2^25 bytes.
 std::uint32_t fletcher32(const void* bytes, std::size_t size);
 
 }  // namespace carom::io::hdf5
