@@ -12,8 +12,8 @@
 namespace carom::analysis {
 
 /// Increasing numbers: ends of bins that hold their end, not their start. A search by halves is a
-/// chain of loads and comparisons; the fine bin of a number tells the answer at once, but for those
-/// in which ends lie.
+/// chain of loads and comparisons. The fine bin of a number (EscapeTimes) tells the answer at once
+/// where no end lies in it, and leaves few ends to search elsewhere.
 class SortedEnds {
  public:
   explicit SortedEnds(std::vector<double> ends) : ends_(std::move(ends)) {
@@ -51,8 +51,8 @@ class SortedEnds {
  private:
   std::vector<double> ends_;
   std::uint64_t first_ = UINT64_MAX;  ///< bin of the first positive end
-  std::vector<std::size_t>
-      before_;  ///< ends before a bin: the one before first_, and those from it
+  /// How many ends lie before a bin, for all bins before first_ together, then from it on.
+  std::vector<std::size_t> before_;
 };
 
 }  // namespace carom::analysis

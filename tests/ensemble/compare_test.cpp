@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "carom/base/error.hpp"
 #include "carom/integrators/scheme.hpp"
 #include "ensemble/compare/precise_orbit.hpp"
+#include "ensemble/compare/precise_path.hpp"
 #include "systems.hpp"
 
 namespace carom {
@@ -83,7 +86,7 @@ step = 0.05
   const double t = 8.0;
   const ensemble::Runs runs(system, 0, {});
   const auto orbit =
-      ensemble::precise_orbit(runs, "mclachlan-ss17", 0.05, t, {.size = 1.0, .speed = 0.5});
+      ensemble::precise_orbit(runs, "mclachlan-ss17", 0.00625, t, {.size = 1.0, .speed = 0.5});
   ASSERT_TRUE(orbit);
   EXPECT_LT(orbit->error, 1e-15);
   // x + i y = a exp(i p t) + b exp(i q t); p and q of z'' = -z - i B z'.
@@ -100,6 +103,26 @@ step = 0.05
   }
   const Comparison result = compare(system, {.schemes = {"velocity-verlet"}, .t_max = t});
   EXPECT_EQ(result.reference, "mclachlan-ss17 in 34 digits");
+}
+
+// A cone has no slope at its tip: formulas give no number there.
+TEST(Compare, WhereAForceHasNoValueThereAreNo34Digits) {
+  const System system = make_system(R"(
+[initial]
+kind = "point"
+position = [0, 0]
+velocity = [0.5, 0.25]
+[[potential]]
+kind = "soft-circle"
+height = 1
+radius = 1
+softness = 0.125
+[integrator]
+step = 0.01
+)");
+  const ensemble::Runs runs(system, 0, {});
+  ensemble::PreciseMotion motion(runs, find_scheme("mclachlan-ss17"));
+  EXPECT_FALSE(motion.follow(motion.start(), 0.5, 4, {}));
 }
 
 // Forces that jump have no order of eight: differences that fall by chance tell no error.
@@ -212,6 +235,48 @@ step = 0.005
       compare(system, {.schemes = {"velocity-verlet"}, .steps = {0.005, 0.5}, .t_max = 1.5});
   EXPECT_TRUE(result.schemes.front().runs.front().failed());
   EXPECT_FALSE(result.schemes.front().runs.back().failed());
+}
+
+// There is no way from the end of the last whole step back to that of the first one.
+TEST(Compare, ASingleStepTellsNothingOfReversal) {
+  const System system = make_system(henon_heiles("0"));
+  const double step = 0.125;
+  const auto scheme = [&](std::vector<double> steps) {
+    return compare(system, {.schemes = {"ruth-3"}, .steps = std::move(steps), .t_max = 2.0 * step})
+        .schemes.front();
+  };
+  const ComparedScheme alone = scheme({1.5 * step});
+  EXPECT_FALSE(alone.reversible);
+  EXPECT_TRUE(std::isnan(alone.runs.front().error_reversal));
+  const ComparedScheme both = scheme({1.5 * step, 0.5 * step});
+  ASSERT_TRUE(both.reversible);
+  EXPECT_FALSE(*both.reversible);
+}
+
+// Where one orbit is all that may be computed, there is no second one to tell its error.
+TEST(Compare, AReferenceThatCostsTooMuchIsRefusedWithTheCost) {
+  const System system = make_system(R"(
+[particles]
+count = 100
+energy = 5e6
+[initial]
+kind = "rectangle"
+min = [-200, -200]
+max = [200, 200]
+[[potential]]
+kind = "harmonic"
+omega = 1
+[interaction]
+kind = "coulomb"
+[integrator]
+step = 0.01
+)");
+  try {
+    compare(system, {.schemes = {"velocity-verlet"}, .t_max = 0.25});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(error.problem().find("evaluations of a force"), std::string::npos) << error.problem();
+  }
 }
 
 TEST(Compare, RefusesWhatHasNothingToCompare) {

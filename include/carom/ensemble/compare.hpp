@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,7 +46,9 @@ struct ComparedRun {
   std::uint64_t hits = 0;     ///< that it has in common with the reference, from the first on
   bool same_hits = true;      ///< they are all hits of both
   double error_hit_time = 0.0, error_hit_place = 0.0;  ///< largest of these (time, length)
-  double error_reversal = 0.0;   ///< of the start, there and back again, as error_state
+  /// Of the start, there and back again, as error_state; not a number where there is no way back:
+  /// the run is a single step, or a trajectory ends.
+  double error_reversal = std::numeric_limits<double>::quiet_NaN();
   double rounding = 0.0;         ///< what rounding may have made of error_state
   std::uint64_t unresolved = 0;  ///< steps that do not resolve the forces, where these are counted
   std::uint64_t steps = 0, force_evaluations = 0;

@@ -93,12 +93,12 @@ std::string runs_table(const ComparedScheme& scheme) {
                               {"CPU\ntime", {}}};
   for (const ComparedRun& run : scheme.runs) {
     const auto number = [&](double x) {
-      return run.failed() ? std::string("-") : fmt::format("{:.1e}", x);
+      return run.failed() || std::isnan(x) ? std::string("-") : fmt::format("{:.1e}", x);
     };
     columns[0].cells.push_back(fmt::format("{:.4g}", control(run)));
     columns[1].cells.push_back(number(run.error_state));
     columns[2].cells.push_back(number(run.error_energy));
-    columns[3].cells.push_back(std::fabs(run.energy_trend) > 2.0 * run.trend_error
+    columns[3].cells.push_back(run.failed() || std::fabs(run.energy_trend) > 2.0 * run.trend_error
                                    ? number(run.energy_trend)
                                    : std::string("none"));
     columns[4].cells.push_back(run.hits > 0 ? number(run.error_hit_time) : "-");

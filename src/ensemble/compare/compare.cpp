@@ -106,9 +106,7 @@ ComparedRun compared(const Setting& setting, const Orbit& orbit, double step, do
   run.unresolved = orbit.counts.unresolved;
   run.cpu_seconds = orbit.cpu_seconds;
   run.rounding = setting.rounding(static_cast<double>(run.force_evaluations));
-  if (orbit.reversed)
-    run.error_reversal =
-        StateDistance{orbit.reversal_position, orbit.reversal_velocity}.in(setting.units);
+  if (orbit.reversal) run.error_reversal = orbit.reversal->in(setting.units);
   compare_hits(setting.reference, orbit, run);
   return run;
 }
@@ -203,10 +201,10 @@ class Comparing {
     return 0.0;
   }
 
-  /// The longest step whose own error is far above rounding tells.
+  /// The longest step that leads there and back tells, if its own error is far above rounding.
   void judge_reversal(ComparedScheme& scheme) const {
     for (const ComparedRun& run : scheme.runs) {
-      if (run.failed()) continue;
+      if (run.failed() || std::isnan(run.error_reversal)) continue;
       const double noise =
           rounding_of_reversal *
           std::max(run.rounding, setting_.rounding(static_cast<double>(run.steps)));

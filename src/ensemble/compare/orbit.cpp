@@ -188,10 +188,11 @@ void Runs::time(World& world, double t, Orbit& orbit) const {
 }
 
 // From the end of the last whole step back to that of the first one: on the way back steps begin
-// where they ended, and a start at a wall is not met.
+// where they ended, and a start at a wall is not met. A single step leaves no way between.
 void Runs::turn_back(World& world, double step, double t, Orbit& orbit) const {
   const double first = step > 0.0 ? std::min(step, t) : t / looks;
-  const double last = std::max(1.0, std::floor(t / first * (1.0 + 0x1p-40))) * first;
+  const double last = std::floor(t / first * (1.0 + 0x1p-40)) * first;
+  if (!(last > first)) return;
   Observer none;
   std::vector<Particle> particles;
   std::vector<State> before, ends;
@@ -221,14 +222,12 @@ void Runs::turn_back(World& world, double step, double t, Orbit& orbit) const {
   }
   world.run_until(last - first, none, stopped_);
   stop_if_asked();
-  orbit.reversed = true;
+  StateDistance& most = orbit.reversal.emplace();
   for (int i = 0; i < world.size(); ++i) {
     const PlaneState there = in_the_plane(*system_.table, state_of(world, i, last - first)),
                      start = in_the_plane(*system_.table, before[static_cast<std::size_t>(i)]);
-    orbit.reversal_position =
-        larger(orbit.reversal_position, length(there.position - start.position));
-    orbit.reversal_velocity =
-        larger(orbit.reversal_velocity, length(there.velocity + start.velocity));
+    most.position = larger(most.position, length(there.position - start.position));
+    most.velocity = larger(most.velocity, length(there.velocity + start.velocity));
   }
 }
 

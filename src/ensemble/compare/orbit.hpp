@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,14 @@ struct ErrorUnits {
 /// A flight to a wall is rounded by some units: of the hit's place, the time and the velocity.
 inline constexpr double rounding_of_flight = 0x1p-50;
 
-/// Looks at a run: the energy at each of them, the state at the latest eight of every fourth.
+/// A run is looked at so many times: energies at each, states at every fourth, and of these the
+/// last eight are compared.
 inline constexpr int looks = 64, looks_between_states = 4, states_compared = 8;
+
+struct StateDistance {
+  double position = 0.0, velocity = 0.0;
+  double in(const ErrorUnits& units) const;
+};
 
 struct Orbit {
   std::string failure;                          ///< "": there is an orbit
@@ -45,14 +52,9 @@ struct Orbit {
   StepCounts counts;
   double energy_change = 0.0, energy_trend = 0.0, trend_error = 0.0;  ///< as in ComparedRun
   double cpu_seconds = 0.0;
-  double reversal_position = 0.0, reversal_velocity = 0.0;
-  bool reversed = false;  ///< these two are known
+  std::optional<StateDistance> reversal;  ///< from the start, there and back; nothing: not known
 };
 
-struct StateDistance {
-  double position = 0.0, velocity = 0.0;
-  double in(const ErrorUnits& units) const;
-};
 /// The largest of any particle and time.
 StateDistance distance(const Orbit&, const Orbit&);
 

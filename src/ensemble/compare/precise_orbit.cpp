@@ -16,9 +16,9 @@ constexpr double most_terms = 1.5e6;
 constexpr double steps_a_hit = 10.0;
 /// Errors below it are as good as none beside the rounding of a double.
 constexpr double wanted_error = 1e-17;
-/// Halvings until steps are as short as those of the reference in doubles. Shorter ones hit no
-/// other walls.
-constexpr int most_misses = 3;
+/// The first steps are longer than those in doubles by 2 to this power. Where those of the same
+/// length and longer ones do not hit the walls that are expected, shorter ones will not, either.
+constexpr int halvings_to_doubles = 3;
 /// Changes that are none: far above the rounding of 34 digits and all that they grow by.
 constexpr double no_change = 1e-24;
 
@@ -36,9 +36,8 @@ double distance(const PrecisePath& a, const PrecisePath& b, const ErrorUnits& un
   return most.in(units);
 }
 
-geometry::Vector rounded(const QuadVector& a) { return {a.x.to_double(), a.y.to_double()}; }
-
-PreciseOrbit rounded(const PrecisePath& path, double step, double error, const ErrorUnits& units) {
+PreciseOrbit in_doubles(const PrecisePath& path, double step, double error,
+                        const ErrorUnits& units) {
   PreciseOrbit orbit{{}, {}, step, error};
   StateDistance largest;
   for (const Phase<Quad>& phase : path.states) {
@@ -58,8 +57,8 @@ PreciseOrbit rounded(const PrecisePath& path, double step, double error, const E
 
 }  // namespace
 
-std::optional<PreciseOrbit> precise_orbit(const Runs& runs, const std::string& name, double step,
-                                          double t, const ErrorUnits& units,
+std::optional<PreciseOrbit> precise_orbit(const Runs& runs, const std::string& name,
+                                          double step_in_doubles, double t, const ErrorUnits& units,
                                           std::span<const ComparedHit> expected) {
   const Scheme& scheme = find_scheme(name);
   PreciseMotion motion(runs, scheme);
@@ -72,9 +71,11 @@ std::optional<PreciseOrbit> precise_orbit(const Runs& runs, const std::string& n
   std::optional<PreciseOrbit> best;
   int falling = 0;  // halvings one after the other that did
   int misses = 0;
+  const double first_step = std::ldexp(step_in_doubles, halvings_to_doubles);
   std::optional<PrecisePath> path;
   double change = std::numeric_limits<double>::quiet_NaN(), spent = 0.0;
-  for (int steps = std::max(1, static_cast<int>(std::ceil(t / (step * parts))));; steps *= 2) {
+  for (int steps = std::max(1, static_cast<int>(std::ceil(t / (first_step * parts))));;
+       steps *= 2) {
     spent += cost * (static_cast<double>(parts) * steps + at_walls);
     if (spent > most_terms) return best;
     std::optional<PrecisePath> finer = motion.follow(start, Quad(t), steps, expected);
@@ -87,14 +88,14 @@ std::optional<PreciseOrbit> precise_orbit(const Runs& runs, const std::string& n
       if (best && change > best->error) best.reset();
       if (falling > 1) {
         const double error = change / (least - 1.0);
-        best = rounded(*finer, t / (static_cast<double>(parts) * steps), error, units);
+        best = in_doubles(*finer, t / (static_cast<double>(parts) * steps), error, units);
         if (error < wanted_error) return best;
       }
     } else {
       change = std::numeric_limits<double>::quiet_NaN();
       falling = 0;
       best.reset();
-      if (!finer && ++misses > most_misses) return {};
+      if (!finer && ++misses > halvings_to_doubles) return {};
     }
     path = std::move(finer);
   }

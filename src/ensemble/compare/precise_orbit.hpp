@@ -22,13 +22,13 @@ struct PreciseOrbit {
   double error = 0.0;  ///< of the states, rounding to doubles included
 };
 
-/// Follows the start until t by `scheme` in 34 digits, with steps of about `step`, of a half, of a
-/// quarter … until the error is far below that of a double; forces by the formulas of the
-/// documentation. Empty: it would cost too much, or halving the step does not lower the error as
-/// the scheme's order says twice running, or a force has no value, or it does not hit the walls
-/// that are expected.
-std::optional<PreciseOrbit> precise_orbit(const Runs&, const std::string& scheme, double step,
-                                          double t, const ErrorUnits&,
+/// Follows the start until t by `scheme` in 34 digits, with steps of about eight times
+/// `step_in_doubles`, then of half, of a quarter … until the error is far below that of a double;
+/// forces by the formulas of the documentation. Empty: it would cost too much, or halving the step
+/// does not lower the error as the scheme's order says twice running, or a force has no value, or
+/// it does not hit the walls that are expected.
+std::optional<PreciseOrbit> precise_orbit(const Runs&, const std::string& scheme,
+                                          double step_in_doubles, double t, const ErrorUnits&,
                                           std::span<const ComparedHit> expected = {});
 
 /// Are the hits the same to such an error of a position? The state reaches the wall earlier or

@@ -1,5 +1,6 @@
 #include "ensemble/compare/precise_path.hpp"
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -50,7 +51,6 @@ class Law final : public ForceLaw<Quad> {
   forces::QuadForces forces_;
 };
 
-geometry::Vector rounded(const QuadVector& a) { return {a.x.to_double(), a.y.to_double()}; }
 bool is_number(const QuadVector& a) { return a.x == a.x && a.y == a.y; }
 
 QuadVector translation(const std::optional<geometry::Lattice>& lattice, const geometry::Cell& c) {
@@ -183,7 +183,7 @@ class PreciseMotion::Motion {
     if (walls_.none()) {
       stepper_.step(now.phase, step, next_);
       std::swap(now.phase, next_);
-      return true;
+      return std::all_of(now.phase.position.begin(), now.phase.position.end(), is_number);
     }
     for (Quad done(0.0); done < step;) {
       walls_.fold(now);

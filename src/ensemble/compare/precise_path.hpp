@@ -18,6 +18,8 @@ namespace carom::ensemble {
 using forces::Quad;
 using QuadVector = geometry::BasicVector<Quad>;
 
+inline geometry::Vector rounded(const QuadVector& a) { return {a.x.to_double(), a.y.to_double()}; }
+
 /// Particles, each as it is seen from its cell.
 struct PrecisePlace {
   Phase<Quad> phase;
@@ -47,7 +49,7 @@ class PreciseMotion {
   ~PreciseMotion();
 
   PrecisePlace start() const;
-  /// Follows `from` until t with so many equal steps between two times that are compared. Nothing
+  /// Follows `from` until t with so many equal steps in each of the parts of that time. Nothing
   /// where other walls are hit than `expected` (particles and walls in their order), where a hit
   /// grazes to rounding, where a particle is found outside, and where a force has no value.
   std::optional<PrecisePath> follow(const PrecisePlace& from, const Quad& t, int steps_a_part,
@@ -60,7 +62,7 @@ class PreciseMotion {
   std::unique_ptr<Motion> motion_;
 };
 
-/// Times that are compared and others between, that far from each other.
+/// Parts of a run, of the same length: states are compared at the ends of the last ones.
 inline constexpr int parts = looks / looks_between_states;
 
 }  // namespace carom::ensemble

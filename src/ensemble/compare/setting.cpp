@@ -1,9 +1,12 @@
 #include "ensemble/compare/setting.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "base/counted.hpp"
 #include "carom/ensemble/choose_step.hpp"
 #include "ensemble/compare/precise_orbit.hpp"
 #include "ensemble/displaced_orbit.hpp"
@@ -197,12 +200,17 @@ double integrate(const Runs& runs, Setting& setting) {
     }
     before = std::move(now);
     shortest = step;
-    if (static_cast<double>(before.counts.force_evaluations) * runs.weight() > most_evaluations)
+    const double cost = static_cast<double>(before.counts.force_evaluations) * runs.weight();
+    if (cost > most_evaluations) {
+      failure =
+          fmt::format("{} of {:.2g} take {:.1e} evaluations of a force, {:.0e} at most",
+                      base::counted(before.counts.steps, "step"), step, cost, most_evaluations);
       break;
+    }
   }
   if (!(best > 0.0))
     throw InputError(Place{}, "no reference was found: " + failure,
-                     "a shorter time (--t-max), or softer forces");
+                     "a shorter time (--t-max), softer forces, or fewer particles");
   const bool kinks = !changes.order_seen && !rounded;
   if (kinks) {
     setting.reference_evaluations = static_cast<double>(before.counts.force_evaluations);
@@ -217,12 +225,12 @@ double integrate(const Runs& runs, Setting& setting) {
   return kinks && changes.slow() ? 0.0 : best;
 }
 
-/// The same orbit in 34 digits, with steps about that one. How far the orbit in doubles is from it
-/// is what rounding has made of that.
+/// The same orbit in 34 digits; `step` is that of the best one in doubles, or 0. How far the orbit
+/// in doubles is from it is what rounding has made of that.
 void integrate_precisely(const Runs& runs, double step, Setting& setting) {
   if (!(step > 0.0)) return;
-  const std::optional<PreciseOrbit> precise = precise_orbit(
-      runs, reference_scheme, 8.0 * step, setting.t, setting.units, setting.reference.hits);
+  const std::optional<PreciseOrbit> precise =
+      precise_orbit(runs, reference_scheme, step, setting.t, setting.units, setting.reference.hits);
   if (!precise || !(precise->error < setting.reference_error)) return;
   Orbit orbit = setting.reference;
   orbit.states = precise->states;
