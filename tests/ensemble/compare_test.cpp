@@ -11,6 +11,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom/integrators/scheme.hpp"
+#include "ensemble/compare/orders.hpp"
 #include "ensemble/compare/precise_orbit.hpp"
 #include "ensemble/compare/precise_path.hpp"
 #include "systems.hpp"
@@ -251,6 +252,43 @@ TEST(Compare, ASingleStepTellsNothingOfReversal) {
   const ComparedScheme both = scheme({1.5 * step, 0.5 * step});
   ASSERT_TRUE(both.reversible);
   EXPECT_FALSE(*both.reversible);
+}
+
+// With --t-max it may be far beyond the time in which rounding is magnified to the size of all.
+TEST(Compare, WhereRoundingIsAllNothingIsSaidOfReversal) {
+  const System system = make_system(R"(
+[table]
+shape = "rectangle"
+width = 1
+height = 1
+[particles]
+energy = 0.5
+[initial]
+kind = "point"
+position = [0.1, 0.2]
+velocity = [0.6, 0.8]
+[[potential]]
+kind = "gaussian"
+height = 3
+width = 0.15
+centers = [[0.5, 0.45]]
+[integrator]
+step = 0.01
+)");
+  const Comparison result =
+      compare(system, {.schemes = {"velocity-verlet"}, .steps = {0.005}, .t_max = 24.0});
+  EXPECT_GT(result.growth, 1e12);
+  EXPECT_FALSE(result.schemes.front().reversible);
+  EXPECT_FALSE(result.schemes.front().measured.slope);
+}
+
+TEST(Compare, OrbitsWithoutAnyErrorTellNoOrder) {
+  std::vector<ComparedRun> runs(4);
+  double step = 1.0;
+  for (ComparedRun& run : runs) run.step = step *= 0.5;
+  const MeasuredOrder order = ensemble::measured_order(runs, std::vector<double>(runs.size()));
+  EXPECT_FALSE(order.slope);
+  EXPECT_EQ(order.reason, "its errors are those of rounding");
 }
 
 // Where one orbit is all that may be computed, there is no second one to tell its error.

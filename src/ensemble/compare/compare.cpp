@@ -201,14 +201,15 @@ class Comparing {
     return 0.0;
   }
 
-  /// The longest step that leads there and back tells, if its own error is far above rounding.
+  /// The longest step that leads there and back tells, if its own error is far above rounding, and
+  /// that so small that it is known how it grows.
   void judge_reversal(ComparedScheme& scheme) const {
     for (const ComparedRun& run : scheme.runs) {
       if (run.failed() || std::isnan(run.error_reversal)) continue;
       const double noise =
           rounding_of_reversal *
           std::max(run.rounding, setting_.rounding(static_cast<double>(run.steps)));
-      if (!(run.error_state > noise)) return;
+      if (!(run.error_state > noise) || noise > largest_error) return;
       scheme.reversible = run.error_reversal <= noise;
       return;
     }

@@ -12,8 +12,6 @@ namespace {
 /// An error counts where it is so many times what rounding may have made of it: the slope between
 /// two steps then errs by less than 2/(ln 2 * 16), a sixth.
 constexpr double above_noise = 16.0;
-/// Larger errors of the state are not in proportion to anything any more.
-constexpr double largest_error = 0.05;
 constexpr std::size_t fewest_steps = 3;
 /// Two slopes that differ by more belong to no power law.
 constexpr double settled = 0.5;
@@ -41,7 +39,7 @@ MeasuredOrder measured_order(const std::vector<ComparedRun>& runs,
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const ComparedRun& run = runs[k];
     if (run.failed() || !(run.step > 0.0)) continue;
-    if (run.error_state < above_noise * noise[k]) {
+    if (run.error_state <= above_noise * noise[k]) {  // both may be 0
       rounded = true;
       break;
     }

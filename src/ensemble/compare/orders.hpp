@@ -8,6 +8,9 @@
 
 namespace carom::ensemble {
 
+/// Larger errors of the state are not in proportion to anything any more.
+inline constexpr double largest_error = 0.05;
+
 /// `noise`: of each run, below which its error is rounding. Runs from the longest step on.
 MeasuredOrder measured_order(const std::vector<ComparedRun>& runs,
                              const std::vector<double>& noise);
