@@ -1,7 +1,10 @@
 """Archives: opened by the module, and read by h5py without it."""
 
 import os
+import pathlib
 import pickle
+import re
+import shutil
 import signal
 import subprocess
 import threading
@@ -50,6 +53,41 @@ def test_h5py_reads_texts_and_numbers(archives, kind):
         look("", file)
         file.visititems(look)
         assert others == ["provenance@checksums"]  # which is written again in place
+
+
+def example_of(heading):
+    """The Python of a section of docs/developer/archives.md."""
+    page = pathlib.Path(__file__).parents[2] / "docs" / "developer" / "archives.md"
+    section = page.read_text(encoding="utf-8").partition(f"\n## {heading}\n")[2]
+    return re.search(r"```python\n(.*?)```", section, re.DOTALL).group(1)
+
+
+@pytest.mark.parametrize("kind", COMMANDS)
+def test_others_can_check_the_sums(archives, kind, tmp_path, monkeypatch, capsys):
+    h5py = pytest.importorskip("h5py")
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(archives / f"{kind}.h5", "result.h5")
+
+    def check():
+        names = {}
+        exec(example_of("The list of checksums"), names)
+        names["file"].close()
+
+    check()
+    assert capsys.readouterr().out == ""
+    with h5py.File("result.h5", "r+") as file:
+        file["system"][()] = "title = 'another one'"
+    check()
+    assert capsys.readouterr().out == "/system was changed\n"
+
+
+def test_others_can_read_exact_sums(archives, tmp_path, monkeypatch):
+    pytest.importorskip("h5py")
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(archives / "diffusion.h5", "msd.h5")
+    names = {}
+    exec(example_of("Exact sums"), names)
+    assert list(map(float, names["sums"])) == pytest.approx(list(names["groups"]["square"]))
 
 
 def lasting(result):
