@@ -141,12 +141,6 @@ bool resolves_region(const System& system, const World& world, double energy, do
          meshes <= 0;
 }
 
-double largest_turn(const System& system) {
-  double omega = 0.0;
-  for (const Particle& p : system.particles) omega = std::max(omega, std::fabs(p.omega));
-  return omega;
-}
-
 }  // namespace
 
 bool needs_step(const System& system) {
@@ -155,10 +149,15 @@ bool needs_step(const System& system) {
          !(system.dynamics.integrator.step > 0.0);
 }
 
+bool turn_allowed(const System& system, double step) {
+  double omega = 0.0;
+  for (const Particle& p : system.particles) omega = std::max(omega, std::fabs(p.omega));
+  return omega * step <= (system.table->walls.empty() ? 2.0 : 1.0);
+}
+
 ChosenStep choose_step(const System& system, const std::function<bool()>& stopped) {
   Pilots pilots(system, stopped);
   const World world(*system.table);
-  const double most_turn = system.table->walls.empty() ? 2.0 : 1.0;
   const double longest = std::min(system.run.t_max, 1e15);
   int n = 0;
   while (step_number(n) < longest) ++n;
@@ -169,7 +168,7 @@ ChosenStep choose_step(const System& system, const std::function<bool()>& stoppe
   constexpr int most_tried = 150;
   for (int tried = 0; tried < most_tried; ++tried, --n) {
     const double h = step_number(n);
-    if (h > longest || largest_turn(system) * h > most_turn) continue;
+    if (h > longest || !turn_allowed(system, h)) continue;
     if (!(at_start > 0.0)) {
       if (!pilots.resolve(h, h) ||
           !resolves_region(system, world, pilots.highest_energy(), h, meshes))

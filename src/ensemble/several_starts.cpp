@@ -36,7 +36,8 @@ void Sampler::draw_several(const World& world, std::uint64_t first, std::span<St
   std::array<Vector, most> positions, directions;
   while (!states.empty()) {
     const std::size_t count = std::min(most, states.size());
-    // Each of these loops has nothing to wait for and nothing to guess.
+    // One thing for all starts, then the next: rounds of a loop do not need each other, so that the
+    // processor works on several at once.
     for (std::size_t i = 0; i < count; ++i)
       RandomStream::block(system_.run.seed, Purpose::initial_state, first + i, 0, 0, words[i]);
     for (std::size_t i = 0; i < count; ++i) {

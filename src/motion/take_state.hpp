@@ -5,8 +5,9 @@
 
 namespace carom::motion {
 
-/// The same as `to = from`, number by number: one that was stored by itself can be read by itself
-/// at once, two of them together only later. Many short trajectories wait for little else.
+/// The same as `to = from`, number by number. A number that was just stored by itself can be read
+/// by itself at once; two of them are read together only once both are in the cache, and many short
+/// trajectories would wait for little else.
 inline void take(State& to, const State& from) {
   const auto& [wall, u, position, velocity, cell, time] = from;  // all that a state has
   to.wall = wall;

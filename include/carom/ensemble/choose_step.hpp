@@ -16,6 +16,10 @@ struct ChosenStep {
 /// Must a step be chosen: do forces act, and is neither a step nor a tolerance given?
 bool needs_step(const System&);
 
+/// May the field turn velocities by as much as it does in such a step? Up to where check_turn
+/// warns, or refuses where there are walls.
+bool turn_allowed(const System&, double step);
+
 /// The longest of 1, 2, 5, 10, ... times a power of ten that resolves the forces
 /// (docs/physics/resolution.md) over what is accessible of a bounded table or a lattice's cell, and
 /// on pilot orbits, and that keeps their energy to 1e-10; where none does, the one that keeps it

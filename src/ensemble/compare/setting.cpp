@@ -37,17 +37,6 @@ constexpr double falls = 0x1p7;
 /// A change that grows again is that of rounding only if it is within so many times of it.
 constexpr double near_rounding = 64.0;
 
-double largest_turn(const System& system) {
-  double omega = 0.0;
-  for (const Particle& p : system.particles) omega = std::max(omega, std::fabs(p.omega));
-  return omega;
-}
-
-/// May the field turn velocities by as much as in a step?
-bool turn_allowed(const System& system, double step) {
-  return largest_turn(system) * step <= (system.table->walls.empty() ? 2.0 : 1.0);
-}
-
 double first_step(const Runs& runs, double size, double speed) {
   const System& system = runs.system();
   if (runs.free()) {
