@@ -12,13 +12,19 @@ import numpy
 from . import _carom, records, results, toml
 from .errors import InputError
 from .sweep import Sweep, Swept
-from .system import System, load, system
+from .system import System, is_of_a_system, load, system
 
 
 def _as_system(thing):
     if isinstance(thing, System):
         return thing
-    text = os.fspath(thing)
+    try:
+        text = os.fsdecode(thing)
+    except TypeError:
+        raise InputError(
+            f"{thing!r} is not a system", ("", 0, 0, "system"),
+            "a carom.System, the name of a built-in system, or a file",
+        ) from None  # fmt: skip
     return load(text) if "/" in text or text.endswith(".toml") else system(text)
 
 
@@ -69,14 +75,6 @@ def _progress(progress):
     return _Bar(tqdm)
 
 
-# What says how one command computes; the rest of the keywords describes the system.
-_OF_ONE_COMMAND = (
-    "certify_sample", "splitting", "population", "repetitions", "kick", "lookback", "precision",
-    "digits", "schemes", "steps", "tolerances", "error",
-    "digits", "hits", "starts", "tries",
-)  # fmt: skip
-
-
 def _shown(progress, function, *arguments):
     """Calls a function of the compiled module with its progress shown."""
     shown = _progress(progress)
@@ -91,22 +89,26 @@ def _compute(kind, function, thing, command, keywords, progress, *arguments):
     of = _as_system(thing)
     if keywords.get("sweep") is not None:
         return _sweep(kind, function, of, command, keywords, progress, *arguments)
+    keywords.pop("sweep", None)
     loaded = of._loaded(command, **keywords)
     outcome, error = _shown(progress, function, loaded, *arguments)
     if error is None and hasattr(outcome, "check"):
         outcome.check()  # as the program, which ends with status 1
-    kept = {key: value for key, value in keywords.items() if key not in _OF_ONE_COMMAND}
-    result = kind(outcome, of.with_(**kept))
+    result = kind(outcome, of.with_(**_kept(keywords)))
     if error is not None:
         error.result = result
         raise error
     return result
 
 
+def _kept(keywords):
+    return {key: value for key, value in keywords.items() if is_of_a_system(key)}
+
+
 def _sweep(kind, function, of, command, keywords, progress, *arguments):
     keywords = dict(keywords)
     swept = Swept(of, command, keywords, keywords.pop("sweep"))
-    kept = {key: value for key, value in keywords.items() if key not in _OF_ONE_COMMAND}
+    kept = _kept(keywords)
     shown = _progress(progress)
     results_, error = [], None
     try:
@@ -159,16 +161,14 @@ def escape(
 
     Ctrl-C raises KeyboardInterrupt, whose `result` holds what was done.
     """
+    keywords |= {"certify_sample": certify_sample, "splitting": splitting, "per_trajectory": per_trajectory}
     if certify_sample is None and splitting is None:
-        return _compute(
-            results.Escape, _carom.escape, system, "escape", keywords, progress, per_trajectory
-        )
+        return _compute(results.Escape, _carom.escape, system, "escape", keywords, progress)
     if per_trajectory:
         raise InputError(
             "per_trajectory goes with neither certify_sample nor splitting",
             ("", 0, 0, "per_trajectory"), "a plain ensemble",
         )  # fmt: skip
-    keywords |= {"certify_sample": certify_sample, "splitting": _levels(splitting)}
     kind, function = (
         (results.Splitting, _carom.split)
         if splitting is not None
@@ -177,23 +177,13 @@ def escape(
     return _compute(kind, function, system, "escape", keywords, progress)
 
 
-def _levels(levels):
-    if levels is None or isinstance(levels, str):
-        return levels
-    return ",".join(toml.bare(level) for level in levels)
-
-
-def diffusion(
-    system: Systems, *, per_trajectory: bool = False, progress: Progress = None, **keywords: Any
-) -> results.Diffusion:
+def diffusion(system: Systems, *, progress: Progress = None, **keywords: Any) -> results.Diffusion:
     """Mean square displacement and diffusion coefficient of an ensemble: a `carom.Diffusion`.
 
     Keywords as of `carom.escape`, and window=(from, to), the report times (time) from which D and
     the exponent are taken; free_paths=True counts the lengths of flights.
     """
-    return _compute(
-        results.Diffusion, _carom.diffusion, system, "diffusion", keywords, progress, per_trajectory
-    )
+    return _compute(results.Diffusion, _carom.diffusion, system, "diffusion", keywords, progress)
 
 
 def lyapunov(
@@ -205,9 +195,8 @@ def lyapunov(
     of deviations is taken; spectrum=True computes all exponents of all particles together, and their
     entropy. per_trajectory: keeps start, end, exponent and SALI of each.
     """
-    return _compute(
-        results.Lyapunov, _carom.lyapunov, system, "lyapunov", keywords, progress, per_trajectory
-    )
+    keywords["per_trajectory"] = per_trajectory
+    return _compute(results.Lyapunov, _carom.lyapunov, system, "lyapunov", keywords, progress)
 
 
 def run(
@@ -221,7 +210,7 @@ def run(
     three times the run. precision="certified", digits=30: a `carom.Certified`, every digit of
     which is guaranteed.
     """
-    if keywords.get("precision", "double") != "double" or "digits" in keywords:
+    if keywords.get("precision") not in (None, "double") or keywords.get("digits") is not None:
         return _compute(
             results.Certified, _carom.run_certified, system, "run", keywords, progress
         )
@@ -244,13 +233,8 @@ def compare(
     lists, or text as "log:0.001:0.1:7"; None: chosen. error: the wanted one of the state (share,
     1e-6). t_max (time): of the comparison; None: until small errors have grown 100 times.
     """
-    keywords |= {"schemes": _words(schemes), "steps": _levels(steps), "error": error}
-    keywords["tolerances"] = _levels(tolerances)
+    keywords |= {"schemes": schemes, "steps": steps, "tolerances": tolerances, "error": error}
     return _compute(results.Comparison, _carom.compare, system, "compare", keywords, progress)
-
-
-def _words(names):
-    return names if names is None or isinstance(names, str) else ",".join(names)
 
 
 def schemes() -> numpy.ndarray:
@@ -281,9 +265,8 @@ def relax(
     starts: how many trajectories' starts go downhill; saddles: looks for saddles, too. Keywords:
     keys of a system file (particles, initial, seed, …) and threads.
     """
-    return _compute(
-        results.Equilibria, _carom.relax, system, "relax", keywords, progress, toml.bare(starts), saddles
-    )
+    keywords |= {"starts": starts, "saddles": saddles}
+    return _compute(results.Equilibria, _carom.relax, system, "relax", keywords, progress)
 
 
 def orbits(
@@ -302,14 +285,16 @@ def orbits(
     decimals of its numbers as text. Ctrl-C raises KeyboardInterrupt, whose `result` holds what
     was found.
     """
-    return _compute(results.Orbits, _carom.orbits, system, "orbit", keywords, progress, zeta, certify)
+    keywords |= {"zeta": zeta, "certify": certify}
+    return _compute(results.Orbits, _carom.orbits, system, "orbit", keywords, progress)
 
 
 def table(system: Systems, **keywords: Any) -> results.Table:
     """Checks and measures a table: a `carom.Table` with area (length²), perimeter (length), walls
     and holes. Keywords: keys of a system file."""
-    of = _as_system(system).with_(**keywords)
-    return results.Table(_carom.measure(of._loaded("table")), of)
+    of = _as_system(system)
+    measured = _carom.measure(of._loaded("table", **keywords))
+    return results.Table(measured, of.with_(**keywords))
 
 
 def validate(
@@ -346,13 +331,18 @@ _KINDS: dict[str, tuple[Callable[..., results.Result], Callable[[str], Any]]] = 
 def open(path) -> results.Result:  # noqa: A001: the name that users expect
     """The result that an archive holds: the same classes as of the functions that compute."""
     path = os.fspath(path)
-    kind = _carom.kind_of_archive(path)
-    if kind not in _KINDS:
-        raise InputError(f"'{path}' holds a {kind}", (path, 0, 0, ""), " or ".join(_KINDS))
-    made, function = _KINDS[kind]
-    outcome = function(path)
+    made, outcome = opened(path)
     of = outcome.system
     toml_, name = of if isinstance(of, tuple) else (of.toml, of.name)
     result = made(outcome, System(toml_, name))
     result._archive = path
     return result
+
+
+def opened(path):
+    """The class of the result that an archive holds, and what the compiled module reads of it."""
+    kind = _carom.kind_of_archive(path)
+    if kind not in _KINDS:
+        raise InputError(f"'{path}' holds a {kind}", (path, 0, 0, ""), " or ".join(_KINDS))
+    made, function = _KINDS[kind]
+    return made, function(path)

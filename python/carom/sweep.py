@@ -13,44 +13,50 @@ from .system import _SECTION_OF, System
 
 
 def typed(sweep):
-    """{"field.B": values or "lin:0:4:20"} as what --sweep takes."""
-    texts = []
+    """{"field.B": values or "lin:0:4:20"} as what --sweep takes: of each key its path and its text."""
+    expected = 'a dictionary such as {"field.B": [0, 0.5, 1]}'
+    if not isinstance(sweep, dict) or not sweep:
+        raise InputError(f"a sweep has keys and their values, not {sweep!r}", _PLACE, expected)
+    texts = {}
     for key, values in sweep.items():
-        if "." not in key and key in _SECTION_OF:
-            key = f"{_SECTION_OF[key]}.{key}"
+        if not isinstance(key, str):
+            raise InputError(f"{key!r} is not a key of a system", _PLACE, expected)
+        values = values.tolist() if hasattr(values, "tolist") else values
         if not isinstance(values, str):
-            values = "list:" + ",".join(toml.bare(value) for value in numpy.atleast_1d(values).tolist())
-        texts.append(f"{key}={values}")
+            listed = list(values) if hasattr(values, "__iter__") else [values]
+            if not listed or any(one is None or isinstance(one, (list, tuple, dict)) for one in listed):
+                raise InputError(
+                    f"sweep: '{key}' has no values in {values!r}", _PLACE,
+                    'numbers, or text such as "lin:0:4:20"',
+                )  # fmt: skip
+            values = "list:" + ",".join(toml.bare(value, key) for value in listed)
+        path = f"{_SECTION_OF[key]}.{key}" if key in _SECTION_OF else key
+        texts[path] = f"{path}={values}"
     return texts
+
+
+_PLACE = ("", 0, 0, "sweep")
 
 
 class Swept:
     """What a sweep computes: the system of each value, all read before the first is flown."""
 
     def __init__(self, of, command, keywords, sweep):
-        self.keys = _carom.swept_keys(command, typed(sweep))
-        self.command, self.of, self.keywords = command, of, keywords
-        names = [key for key, _ in self.keys]
+        texts = typed(sweep)
+        # The values of a sweep take the place of one that the system holds.
+        changes = [one for one in of._changes if one[0] not in texts]
+        options = [one for one in of._options if f"{_SECTION_OF.get(one[0])}.{one[0]}" not in texts]
+        of = System(of._text, of._name, changes, options)
+        self.plan = _carom.plan_sweep(*of._asked(command, **keywords), list(texts.values()))
+        names = [key for key, _ in self.plan.keys]
         self.systems = []
-        for values in itertools.product(*(values for _, values in self.keys)):
-            set_ = list(zip(names, values))
-            made = System(of._text, of._name, (*of._changes, *set_), of._options)
+        for values in itertools.product(*(values for _, values in self.plan.keys)):
+            made = System(of._text, of._name, (*of._changes, *zip(names, values)), of._options)
             self.systems.append((made, made._loaded(command, **keywords)))
 
-    def base(self):
-        """The system without the sweep, or its first one where the keys are needed."""
-        try:
-            return self.of._loaded(self.command, **self.keywords)
-        except InputError:
-            return self.systems[0][1]
-
     def outcome(self, results):
-        base = self.base()
         reports = [(r._outcome.json(), "\n".join((*r.doubts, "")) if r.doubts else "") for r in results]
-        return _carom.make_sweep(
-            self.command, self.keys, base.toml, base.name,
-            [loaded.toml for _, loaded in self.systems], reports,
-        )  # fmt: skip
+        return _carom.make_sweep(self.plan, reports)
 
 
 class Sweep(Result):
@@ -117,6 +123,9 @@ class Sweep(Result):
                 if files[-1]:
                     result.save(files[-1])
             self._outcome.save(str(path), force, files)
+
+    def _made_of(self):
+        return self._system, self._results
 
     def plot(self, ax=None, y=None):
         """A column of the table against the key, with error bars; of a plane a map."""

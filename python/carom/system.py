@@ -6,54 +6,98 @@ import pathlib
 from . import _carom, toml
 from .errors import InputError
 
-# What the program has options for; the other keywords are keys of the system file.
-_PAIRS = ("position", "velocity", "window")
-_OPTIONS = (
-    "engine", "isa", "threads", "trajectory", "seed", "trajectories", "t_max", "collisions",
-    "trust_tolerance", "on", "direction", "points", "orbits", "hits", "starts", "tries", "precision", "digits",
-    "certify_sample", "splitting", "population", "repetitions", "kick", "lookback",
-    "schemes", "steps", "tolerances", "error",
-)  # fmt: skip
-_PLAIN_SECTIONS = ("field", "particles", "integrator", "run", "section")
 _KEYS = _carom.keys()
-_SECTIONS = {section.split(".")[0] for section, *_ in _KEYS} | {"initial", "table"}
+_SECTIONS = {section.split(".")[0] for section, *_ in _KEYS if section} | {"initial", "table"}
 _SECTION_OF: dict[str, str] = {}
 for _section, _kind, _key, *_rest in _KEYS:
-    if _section in _PLAIN_SECTIONS:
+    if _section in ("field", "particles", "integrator", "run", "section"):
         _SECTION_OF.setdefault(_key, _section)
 
+# Options of the program that are about its files and its prints.
+_NO_KEYWORDS = (
+    "json", "quiet", "verbose", "output", "force", "set", "closed", "resume", "checkpoint", "shard", "block",
+)  # fmt: skip
+#: Of each command the options that are keywords, and whether a value follows them.
+_OPTIONS = {
+    command: {name: valued for name, valued in options if name not in _NO_KEYWORDS}
+    for command, options in _carom.options()
+}
+_ALL_OPTIONS = {name: valued for options in _OPTIONS.values() for name, valued in options.items()}
+#: Names of the options that a system holds for its commands, beside the keys of its file.
+_HELD = ("position", "velocity", "engine", "isa", "threads", "trajectory")
 
-def _changes(keywords):
+
+def is_of_a_system(key):
+    """Does a system hold it? The other keywords say how one command computes."""
+    return key in _SECTION_OF or key in _SECTIONS or key == "angle" or key in _HELD
+
+
+def function_of(command):
+    """The name of a command's function."""
+    return "carom." + ("orbits" if command == "orbit" else command)
+
+
+def _check(key, command):
+    """Throws InputError for a keyword that means nothing to a command; without a command: to a system."""
+    if command is None:
+        known = {key for key in (*_SECTION_OF, *_SECTIONS, *_HELD, "angle")}
+        what = "a system"
+    else:
+        keys = {key for key in (*_SECTION_OF, *_SECTIONS, "angle") if key not in _ALL_OPTIONS}
+        known = keys | set(_OPTIONS[command])
+        what = function_of(command)
+    if key in known:
+        return
+    others = [function_of(other) for other, options in _OPTIONS.items() if key in options]
+    nearest = _carom.nearest_name(key, sorted(known))
+    hint = f"; did you mean '{nearest}'?" if nearest else ""
+    problem = (
+        f"'{key}' means nothing to {what}: it is a keyword of {', '.join(others)}"
+        if others
+        else f"{what} has no keyword '{key}'"
+    )
+    expected = "a key of a system file" + (f" or an option of {what}" if command else "")
+    raise InputError(problem + hint, ("", 0, 0, key), expected, nearest)
+
+
+def _typed(key, given):
+    """A value as it is typed after an option: 1/3, 10,20,40."""
+    given = given.tolist() if hasattr(given, "tolist") else given
+    if isinstance(given, str):
+        text = given
+    elif hasattr(given, "__iter__"):
+        text = (":" if key == "window" else ",").join(toml.bare(one, key) for one in given)
+    else:
+        text = toml.bare(given, key)
+    if not text.strip():
+        raise InputError(f"'{key}' needs a value", ("", 0, 0, key), "a value, or None")
+    return text
+
+
+def _changes(keywords, command=None):
     """Keywords as what --set and the options of the program say: two lists of (name, text)."""
     changes, options = [], []
     for key, given in keywords.items():
+        _check(key, command)
         if given is None:
             continue
-        if key in _PAIRS:
-            between = ":" if key == "window" else ","
-            options.append((key, between.join(toml.bare(one) for one in given)))
-        elif key == "times":
-            text = given if isinstance(given, str) else ",".join(toml.bare(t) for t in given)
-            options.append((key, text))
-        elif key in _OPTIONS:
-            options.append((key, toml.bare(given)))
+        section = _SECTION_OF.get(key)
+        if _ALL_OPTIONS.get(key) and not (section and isinstance(given, dict)):
+            options.append((key, _typed(key, given)))
         elif key == "angle":
-            changes.append(("initial.angle", toml.value(given)))
+            changes.append(("initial.angle", toml.value(given, key)))
+        elif section:
+            changes.append((f"{section}.{key}", toml.value(given, key)))
         elif key in _SECTIONS:
             if key == "initial" and isinstance(given, str):
                 given = {"kind": given}
             if key in ("potential", "injection") and isinstance(given, dict):
                 given = [given]
-            changes.append((key, toml.value(given)))
-        elif key in _SECTION_OF:
-            changes.append((f"{_SECTION_OF[key]}.{key}", toml.value(given)))
-        else:
-            names = sorted({*_PAIRS, *_OPTIONS, *_SECTION_OF, *_SECTIONS, "times", "angle"})
-            nearest = _carom.nearest_name(key, names)
-            hint = f", did you mean '{nearest}'?" if nearest else ""
-            raise InputError(
-                f"unknown keyword '{key}'{hint}", ("", 0, 0, key), "a key of a system file", nearest
-            )
+            changes.append((key, toml.value(given, key)))
+        elif not isinstance(given, bool):
+            raise InputError(f"'{key}' is {given!r}", ("", 0, 0, key), "True or False")
+        elif given:
+            options.append((key, "true"))
     return changes, options
 
 
@@ -112,11 +156,20 @@ class System:
         """The complete system file, which the program takes too."""
         return self._loaded("table").toml
 
+    def _asked(self, command, **keywords):
+        """What a command is asked for, as the compiled module takes it. Keywords must be the command's
+        own; what the system holds is used where it means something."""
+        changes, options = _changes(keywords, command)
+        held_changes, held = list(self._changes), []
+        for key, text in self._options:
+            if key in _OPTIONS[command] or _SECTION_OF.get(key) == "run" or key in ("position", "velocity"):
+                held.append((key, text))
+            elif key in _SECTION_OF:
+                held_changes.append((f"section.{key}", text))
+        return self._text, self._name, command, [*held_changes, *changes], [*held, *options]
+
     def _loaded(self, command, **keywords):
-        changes, options = _changes(keywords)
-        return _carom.load(
-            self._text, self._name, command, [*self._changes, *changes], [*self._options, *options]
-        )
+        return _carom.load(*self._asked(command, **keywords))
 
     def __reduce__(self):
         return System, (self._text, self._name, self._changes, self._options)

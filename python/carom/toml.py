@@ -6,9 +6,11 @@ import json
 import math
 import numbers
 
+from .errors import InputError
 
-def value(thing):
-    """One value in TOML: numbers, exact text, lists, dictionaries."""
+
+def value(thing, key=""):
+    """One value in TOML: numbers, exact text, lists, dictionaries. `key`: whose it is."""
     if hasattr(thing, "tolist"):  # NumPy's numbers and arrays
         thing = thing.tolist()
     if isinstance(thing, bool):
@@ -27,23 +29,25 @@ def value(thing):
             return repr(thing)
         return "nan" if math.isnan(thing) else "inf" if thing > 0 else "-inf"
     if isinstance(thing, dict):
-        return "{ " + ", ".join(f"{key} = {value(one)}" for key, one in thing.items()) + " }"
+        return "{ " + ", ".join(f"{name} = {value(one, key)}" for name, one in thing.items()) + " }"
     if isinstance(thing, (list, tuple)) or hasattr(thing, "__iter__"):
-        items = [value(one) for one in thing]
+        items = [value(one, key) for one in thing]
         # A line each: the place of a number is found by counting along its line.
         rows = any(item.startswith("[") for item in items)
         return "[" + (",\n" if rows else ", ").join(items) + "]"
-    raise TypeError(f"a {type(thing).__name__} cannot be written in a system file")
+    raise InputError(
+        f"'{key}' cannot be {thing!r}", ("", 0, 0, key), "numbers, text, lists or dictionaries"
+    )
 
 
-def bare(thing):
+def bare(thing, key=""):
     """A number or exact text as it is written in a list of the command line: 1/3, 0.5."""
-    text = value(thing)
+    text = value(thing, key)
     return json.loads(text) if text.startswith('"') else text
 
 
 def section(name, entries, array=False):
     """A section with its header; entries that are None are left out."""
     head = f"[[{name}]]" if array else f"[{name}]"
-    lines = [f"{key} = {value(one)}" for key, one in entries.items() if one is not None]
+    lines = [f"{key} = {value(one, key)}" for key, one in entries.items() if one is not None]
     return "\n".join([head, *lines]) + "\n"

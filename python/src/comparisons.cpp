@@ -7,6 +7,7 @@
 
 #include "beside.hpp"
 #include "carom/io/comparison_archive.hpp"
+#include "cli/commands/commands.hpp"
 #include "cli/commands/compare.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/compare_report.hpp"
@@ -42,10 +43,8 @@ py::tuple compare(const std::shared_ptr<Loaded>& loaded, const py::object& progr
 ComparisonOutcome open_comparison(const std::string& file) {
   StoredComparison stored = read_comparison(file);
   auto loaded = std::make_shared<Loaded>();
-  loaded->options.command = "compare";
-  loaded->loaded = cli::load_compared(loaded->options, [&](const SystemOverrides& overrides) {
-    return read_system(stored.system_toml, file + ": /system", overrides);
-  });
+  loaded->options = options_of(stored.system_toml, file + ": /system", "compare", {}, {});
+  loaded->loaded = cli::system_of_command(loaded->options);
   loaded->loaded.system.name = stored.system_name;
   ComparisonOutcome outcome;
   outcome.system = std::move(loaded);

@@ -105,16 +105,14 @@ LyapunovResult run(const System& system, const EnsembleOptions<LyapunovResult>& 
 
 // The outcome, and what ended it early or None.
 template <class Result>
-py::tuple fly(const std::shared_ptr<Loaded>& loaded, bool per_trajectory,
-              const py::object& progress) {
+py::tuple fly(const std::shared_ptr<Loaded>& loaded, const py::object& progress) {
   EnsembleOutcome<Result> outcome{loaded, {}, {}, nullptr, nullptr};
   const System& system = loaded->system();
   EnsembleOptions<Result> how;
   how.threads = cli::threads_of(loaded->options);
-  cli::check_engine(loaded->options);
   how.lanes = cli::instruction_set_of(loaded->options);
   std::optional<Records<Result>> records;
-  if (per_trajectory) {
+  if (loaded->options.per_trajectory) {
     outcome.records = std::make_shared<std::vector<TrajectoryRecord>>();
     how.journal = &records.emplace(*outcome.records);
   }
@@ -203,8 +201,7 @@ void add(py::module_& module, const char* name, const char* function) {
     outcome.def("check", [](const Outcome& self) {
       if (const auto error = why_nothing(self.system->system(), self.result)) throw *error;
     });
-  module.def(function, &fly<Result>, py::arg("system"), py::arg("per_trajectory"),
-             py::arg("progress"));
+  module.def(function, &fly<Result>, py::arg("system"), py::arg("progress"));
   module.def((std::string("open_") + function).c_str(), &open<Result>,
              py::call_guard<py::gil_scoped_release>(), py::arg("file"));
 }

@@ -21,10 +21,7 @@ struct RelaxOutcome {
   RelaxResult result;
 };
 
-py::tuple relax(const std::shared_ptr<Loaded>& loaded, const std::string& starts, bool saddles,
-                const py::object& progress) {
-  loaded->options.starts = starts;
-  loaded->options.saddles = saddles;
+py::tuple relax(const std::shared_ptr<Loaded>& loaded, const py::object& progress) {
   RelaxOptions how = cli::relax_options(loaded->options);
   RelaxOutcome outcome;
   outcome.system = loaded;
@@ -73,8 +70,7 @@ void add_equilibria(py::module_& module) {
       .def("doubts", [](const RelaxOutcome&) { return std::vector<std::string>(); })
       .def("save", &save, py::call_guard<py::gil_scoped_release>(), py::arg("file"),
            py::arg("force"));
-  module.def("relax", &relax, py::arg("system"), py::arg("starts"), py::arg("saddles"),
-             py::arg("progress"));
+  module.def("relax", &relax, py::arg("system"), py::arg("progress"));
   module.def("open_relax", &open_relax, py::call_guard<py::gil_scoped_release>(), py::arg("file"));
 }
 

@@ -5,6 +5,8 @@
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "carom/io/system_file.hpp"
 #include "cli/options.hpp"
@@ -16,6 +18,13 @@ struct Loaded {
   cli::Options options;
   const System& system() const { return loaded.system; }
 };
+using Texts = std::vector<std::pair<std::string, std::string>>;
+
+/// What a command was asked for: the text of its system ("": a built-in one, by its name), changes
+/// of keys as --set says them, options as cli::set_options takes them.
+cli::Options options_of(const std::string& toml, const std::string& name,
+                        const std::string& command, const Texts& set, const Texts& texts);
+
 using LoadedPointer = std::shared_ptr<const Loaded>;
 
 /// Classes and functions of each part of the module.

@@ -1,15 +1,14 @@
 // Systems: text, built-in names, what a command changes in them.
 #include <pybind11/stl.h>
 
-#include <optional>
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "carom/base/error.hpp"
-#include "cli/commands/compare.hpp"
-#include "cli/commands/escape_options.hpp"
-#include "cli/commands/run_certified.hpp"
-#include "cli/commands/section.hpp"
+#include "carom/ensemble/stopwatch.hpp"
+#include "cli/command_table.hpp"
+#include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/table_report.hpp"
 #include "cli/reports/table_svg.hpp"
@@ -21,97 +20,59 @@ namespace carom::python {
 
 namespace {
 
-using Texts = std::vector<std::pair<std::string, std::string>>;
-
-void set_option(cli::Options& options, const std::string& name, const std::string& text) {
-  const std::pair<const char*, std::string*> all[] = {
-      {"seed", &options.overrides.seed},
-      {"trajectories", &options.overrides.trajectories},
-      {"t_max", &options.overrides.t_max},
-      {"collisions", &options.overrides.collisions},
-      {"times", &options.overrides.times},
-      {"position", &options.overrides.position},
-      {"velocity", &options.overrides.velocity},
-      {"trust_tolerance", &options.overrides.trust_tolerance},
-      {"window", &options.window},
-      {"on", &options.on},
-      {"direction", &options.direction},
-      {"points", &options.points},
-      {"orbits", &options.orbits},
-      {"threads", &options.threads},
-      {"trajectory", &options.trajectory},
-      {"engine", &options.engine},
-      {"isa", &options.isa},
-      {"precision", &options.precision},
-      {"digits", &options.digits},
-      {"block", &options.block},
-      {"certify_sample", &options.certify_sample},
-      {"splitting", &options.splitting},
-      {"population", &options.population},
-      {"repetitions", &options.repetitions},
-      {"kick", &options.kick},
-      {"lookback", &options.lookback},
-      {"schemes", &options.schemes},
-      {"steps", &options.steps},
-      {"tolerances", &options.tolerances},
-      {"error", &options.error},
-      {"hits", &options.hits},
-      {"starts", &options.starts},
-      {"tries", &options.tries},
-      {"scale", &options.scale}};
-  for (const auto& [key, field] : all)
-    if (name == key) {
-      *field = text;
-      return;
-    }
-  throw std::invalid_argument("no such option: " + name);
-}
-
 LoadedPointer load(const std::string& toml, const std::string& name, const std::string& command,
                    const Texts& set, const Texts& texts) {
   auto made = std::make_shared<Loaded>();
-  cli::Options& options = made->options;
-  options.command = command;
-  options.line = "carom." + command + " (Python)";
-  options.system = name;
-  options.quiet = true;
-  options.overrides.set = set;
-  for (const auto& [key, text] : texts) set_option(options, key, text);
-  const auto with = [&](const SystemOverrides& overrides) {
-    return toml.empty() ? load_system(name, overrides) : read_system(toml, name, overrides);
-  };
-  if (command == "compare") {
-    options.comparison_time = std::exchange(options.overrides.t_max, "");
-    made->loaded = cli::load_compared(options, with);
-    return made;
-  }
-  if (command == "section") {
-    made->loaded = cli::load_section(options, with);
-  } else if (command == "run") {
-    made->loaded = with(cli::run_overrides(options));
-  } else {
-    if (command == "escape") cli::check_escape_options(options);
-    SystemOverrides overrides = options.overrides;
-    overrides.window = options.window;
-    made->loaded =
-        command == "lyapunov" ? cli::load_without_repeats(overrides, with) : with(overrides);
-  }
-  cli::choose_engine(options.engine, made->loaded.system);
+  made->options = options_of(toml, name, command, set, texts);
+  cli::check_engine(made->options);
+  made->loaded = cli::system_of_command(made->options);
   return made;
+}
+
+// Of each command that takes a system: its options, and whether a value follows them.
+using OptionNames = std::vector<std::pair<std::string, bool>>;
+std::vector<std::pair<std::string, OptionNames>> options_of_commands() {
+  std::vector<std::pair<std::string, OptionNames>> all;
+  for (const cli::CommandRow& command : cli::command_table()) {
+    OptionNames names;
+    for (const cli::OptionRow& option : command.options) {
+      std::string name = option.names.back().substr(2);  // without its dashes
+      std::replace(name.begin(), name.end(), '-', '_');
+      names.emplace_back(std::move(name), !option.value.empty());
+    }
+    const auto is_set = [](const auto& one) { return one.first == "set"; };
+    if (std::any_of(names.begin(), names.end(), is_set))
+      all.emplace_back(command.name, std::move(names));
+  }
+  return all;
 }
 
 struct TableOutcome {
   LoadedPointer system;
   TableMeasure measured;
-  Stopwatch watch;
+  double seconds, cpu_seconds;
 };
 
 TableOutcome measured(const std::shared_ptr<Loaded>& loaded) {
   const Stopwatch watch;
-  return {loaded, measure(*loaded->system().table), watch};
+  TableMeasure measure = carom::measure(*loaded->system().table);
+  return {loaded, std::move(measure), watch.seconds(), watch.cpu_seconds()};
 }
 
 }  // namespace
+
+cli::Options options_of(const std::string& toml, const std::string& name,
+                        const std::string& command, const Texts& set, const Texts& texts) {
+  cli::Options options;
+  cli::set_options(options, command, texts);
+  options.command = command;
+  options.line = "carom." + command + " (Python)";
+  options.system = name;
+  if (!toml.empty()) options.system_text = toml;
+  options.quiet = true;
+  options.overrides.set = set;
+  return options;
+}
 
 void add_loading(py::module_& module) {
   py::class_<Loaded, std::shared_ptr<Loaded>>(module, "Loaded")
@@ -126,7 +87,9 @@ void add_loading(py::module_& module) {
   py::class_<TableOutcome>(module, "TableOutcome")
       .def("json",
            [](const TableOutcome& self) {
-             return cli::table_json(self.system->loaded, self.measured, "", self.watch).text();
+             return cli::table_json(self.system->loaded, self.measured, "", self.seconds,
+                                    self.cpu_seconds)
+                 .text();
            })
       .def("text",
            [](const TableOutcome& self) {
@@ -156,6 +119,7 @@ void add_loading(py::module_& module) {
                                 std::string(key.fallback), std::string(key.meaning)));
     return all;
   });
+  module.def("options", &options_of_commands);
   module.def("counted", &base::counted, py::arg("number"), py::arg("noun"));
   module.def("nearest_name", &nearest_name, py::arg("name"), py::arg("known"));
 }

@@ -31,10 +31,7 @@ struct OrbitsOutcome {
   }
 };
 
-py::tuple orbits(const std::shared_ptr<Loaded>& loaded, bool zeta, bool certify,
-                 const py::object& progress) {
-  loaded->options.zeta = zeta;
-  loaded->options.certify = certify;
+py::tuple orbits(const std::shared_ptr<Loaded>& loaded, const py::object& progress) {
   OrbitSearchOptions how = cli::orbit_search_options(loaded->options);
   OrbitsOutcome outcome;
   outcome.system = loaded;
@@ -120,8 +117,7 @@ void add_orbits(py::module_& module) {
       .def("paths", &paths)
       .def("save", &save, py::call_guard<py::gil_scoped_release>(), py::arg("file"),
            py::arg("force"));
-  module.def("orbits", &orbits, py::arg("system"), py::arg("zeta"), py::arg("certify"),
-             py::arg("progress"));
+  module.def("orbits", &orbits, py::arg("system"), py::arg("progress"));
   module.def("open_orbits", &open_orbits, py::call_guard<py::gil_scoped_release>(),
              py::arg("file"));
 }

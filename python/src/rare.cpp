@@ -24,7 +24,6 @@ struct SplittingOutcome {
 
 py::tuple split(const std::shared_ptr<Loaded>& loaded, const py::object& progress) {
   SplittingOutcome outcome{loaded, {}};
-  cli::check_engine(loaded->options);
   const SplittingPlan plan = cli::plan_of(loaded->options);
   Course course;
   SplittingOptions how;

@@ -27,36 +27,35 @@ struct SweepOutcome {
   std::string file;  ///< that it was read from, or ""
 };
 
-Keys swept_keys(const std::string& command, const std::vector<std::string>& typed) {
-  cli::Options options;
-  options.command = command;
+io::SweepPlan plan_sweep(const std::string& toml, const std::string& name,
+                         const std::string& command, const Texts& set, const Texts& texts,
+                         const std::vector<std::string>& typed) {
+  cli::Options options = options_of(toml, name, command, set, texts);
   options.sweep = typed;
+  return cli::plan_of_sweep(options);
+}
+
+Keys keys_of(const io::SweepPlan& plan) {
   Keys keys;
-  for (io::SweptKey& key : cli::swept_keys(options))
-    keys.emplace_back(std::move(key.key), std::move(key.values));
+  for (const io::SweptKey& key : plan.keys) keys.emplace_back(key.key, key.values);
   return keys;
 }
 
-// `systems` and `reports`: of the values that were computed; `all` of all values.
-SweepOutcome make_sweep(const std::string& command, const Keys& keys, const std::string& base,
-                        const std::string& name, const std::vector<std::string>& all,
+// `reports`: of the values that were computed, with their doubts.
+SweepOutcome make_sweep(const io::SweepPlan& plan,
                         const std::vector<std::pair<std::string, std::string>>& reports) {
   SweepOutcome made;
   cli::SweepResult& result = made.result;
-  result.plan.command = command;
-  result.plan.system_name = name;
-  result.plan.system_toml = base;
-  for (const auto& [key, values] : keys) result.plan.keys.push_back({key, values});
-  result.plan.systems = all;
+  result.plan = plan;
   for (std::size_t i = 0; i < reports.size(); ++i) {
     const auto& [report, doubts] = reports[i];
     io::Json row = io::Json::parse(report, "report");
     if (!doubts.empty()) row.set("doubts", doubts);
     result.rows.push_back({i, std::move(row)});
   }
-  result.status = reports.size() == all.size() ? "completed" : "interrupted";
+  result.status = reports.size() == plan.systems.size() ? "completed" : "interrupted";
   if (const auto error = cli::why_nothing(result)) throw *error;  // as the program
-  result.title = read_system(base, name).system.title;
+  result.title = read_system(plan.system_toml, plan.system_name).system.title;
   return made;
 }
 
@@ -139,9 +138,11 @@ void add_sweeps(py::module_& module) {
             return io::extract_value(self.file, index, target);
           },
           py::arg("index"), py::arg("target"));
-  module.def("swept_keys", &swept_keys, py::arg("command"), py::arg("typed"));
-  module.def("make_sweep", &make_sweep, py::arg("command"), py::arg("keys"), py::arg("base"),
-             py::arg("name"), py::arg("all"), py::arg("reports"));
+  py::class_<io::SweepPlan>(module, "SweepPlan").def_property_readonly("keys", &keys_of);
+  module.def("plan_sweep", &plan_sweep, py::call_guard<py::gil_scoped_release>(), py::arg("toml"),
+             py::arg("name"), py::arg("command"), py::arg("set"), py::arg("texts"),
+             py::arg("typed"));
+  module.def("make_sweep", &make_sweep, py::arg("plan"), py::arg("reports"));
   module.def("open_sweep", &open_sweep, py::call_guard<py::gil_scoped_release>(), py::arg("file"));
 }
 

@@ -155,17 +155,10 @@ void follow_links(Options& options) {
 }
 
 LoadedSystem load(const Options& options, const SystemOverrides& overrides) {
-  if (!options.of_sweep) return load_system(options.system, overrides);
-  return read_system(options.of_sweep->system_toml, options.of_sweep->system_name);
-}
-
-LoadedSystem load_without_repeats(SystemOverrides overrides,
-                                  const std::function<LoadedSystem(const SystemOverrides&)>& load) {
-  LoadedSystem loaded = load(overrides);
-  if (repeated_starts(loaded.system).empty()) return loaded;
-  std::erase_if(overrides.set, [](const auto& one) { return one.first == "run.trajectories"; });
-  overrides.trajectories = std::to_string(listed_trajectories(loaded.system));
-  return load(overrides);
+  if (options.of_sweep)
+    return read_system(options.of_sweep->system_toml, options.of_sweep->system_name);
+  if (options.system_text) return read_system(*options.system_text, options.system, overrides);
+  return load_system(options.system, overrides);
 }
 
 LoadedSystem load_typed(const Options& options) { return load(options, options.overrides); }

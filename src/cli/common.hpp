@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -47,10 +46,6 @@ void follow_links(Options&);
 /// The system that is asked for: of a sweep that of its value.
 LoadedSystem load(const Options&, const SystemOverrides&);
 LoadedSystem load_typed(const Options&);  ///< with what was typed
-/// Listed starts that trajectories repeat give the same orbits again, as if their spread were 0: as
-/// many trajectories as starts are listed.
-LoadedSystem load_without_repeats(SystemOverrides,
-                                  const std::function<LoadedSystem(const SystemOverrides&)>& load);
 /// lock_archive; where others are not kept away, a warning says so.
 ArchiveLock lock_output(const Options&, const std::string& file);
 /// The lock of the file that -o names, which must not exist but with --force; null without -o.

@@ -54,18 +54,8 @@ int (*command_of(const std::string& name))(const Options&) {
 
 int call(const Options& options) {
   using namespace carom::cli;
-  static const std::pair<const char*, SweptCommand> swept[] = {
-      {"escape", {escape, system_of_escape}},
-      {"run", {run, system_of_run}},
-      {"diffusion", {diffusion, load_ensemble}},
-      {"lyapunov", {lyapunov, load_ensemble}},
-      {"section", {section, system_of_section}},
-      {"orbit", {orbit, load_typed}},
-      {"relax", {relax, load_typed}},
-      {"compare", {compare, system_of_compare}}};
-  for (const auto& [name, command] : swept)
-    if (options.command == name && is_sweep(options)) return sweep(options, command);
-  return command_of(options.command)(options);
+  const auto command = command_of(options.command);
+  return is_sweep(options) ? sweep(options, command) : command(options);
 }
 
 // Calls the command. Its text comes last: if its reader is gone, all else is done.

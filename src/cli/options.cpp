@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <memory>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -381,6 +382,32 @@ std::vector<CommandRow> command_table() {
   std::vector<CommandRow> rows{row_of(app)};
   for (const CLI::App* command : app.get_subcommands({})) rows.push_back(row_of(*command));
   return rows;
+}
+
+void set_options(Options& options, const std::string& command,
+                 const std::vector<std::pair<std::string, std::string>>& texts) {
+  bool version_wanted = false;
+  CLI::App app(introduction);
+  define(app, options, version_wanted);
+  std::vector<CLI::App*> commands = app.get_subcommands([](CLI::App*) { return true; });
+  std::stable_partition(commands.begin(), commands.end(),
+                        [&](const CLI::App* one) { return one->get_name() == command; });
+  for (const auto& [key, text] : texts) {
+    std::string name = "--" + key;
+    std::replace(name.begin(), name.end(), '_', '-');
+    const auto owner = std::find_if(commands.begin(), commands.end(), [&](const CLI::App* one) {
+      return one->get_option_no_throw(name) != nullptr;
+    });
+    if (owner == commands.end()) throw std::invalid_argument("no such option: " + key);
+    try {
+      CLI::Option& option = *(*owner)->get_option(name);
+      option.clear();
+      option.add_result(text);
+      option.run_callback();
+    } catch (const CLI::ParseError& error) {
+      throw InputError(Place{"command line", 0, 0, name}, error.what(), "a value");
+    }
+  }
 }
 
 Parsed parse(int argc, char** argv) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "carom/io/system_overrides.hpp"
@@ -28,6 +29,8 @@ struct Options {
   std::string command;  ///< subcommand, "" : none
   std::string line;     ///< the whole command line, for provenance
   std::string system;   ///< SYSTEM, or NAME of `carom systems`
+  /// What SYSTEM holds, where a caller has its text already: `system` is then only its name.
+  std::optional<std::string> system_text;
   /// `hidden_archive`: the output is aside and goes when its picture is drawn.
   bool hidden_archive = false;
   bool json = false, force = false, quiet = false, verbose = false, per_trajectory = false,
@@ -57,6 +60,12 @@ struct Parsed {
   std::optional<int> exit;
 };
 Parsed parse(int argc, char** argv);
+
+/// Sets options of a command as if they were typed: "t_max" is --t-max. One that only other
+/// commands have is set as theirs; the command does not look at it. Throws InputError for a value
+/// that the command line refuses, std::invalid_argument for a name that no command has.
+void set_options(Options&, const std::string& command,
+                 const std::vector<std::pair<std::string, std::string>>& texts);
 
 /// `untrusted`: trajectories that failed, energies beyond their tolerance, or a failed validation.
 enum Status { done = 0, bad_input = 1, usage = 2, untrusted = 3, stopped = 130 };

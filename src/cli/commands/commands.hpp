@@ -23,9 +23,8 @@ int validate(const Options&);
 int plot(const Options&);
 int animate(const Options&);
 
-/// The system that a command would compute, of commands that can be swept. Those of diffusion are
-/// load_ensemble's.
-LoadedSystem system_of_escape(const Options&);
+/// The system that a command would compute, from its options.
+LoadedSystem system_of_command(const Options&);
 LoadedSystem system_of_run(const Options&);
 LoadedSystem system_of_section(const Options&);
 LoadedSystem system_of_compare(const Options&);

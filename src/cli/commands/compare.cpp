@@ -43,14 +43,6 @@ void check(const std::vector<double>& numbers, const char* option, double least,
 
 }  // namespace
 
-LoadedSystem load_compared(const Options& options,
-                           const std::function<LoadedSystem(const SystemOverrides&)>& load) {
-  LoadedSystem loaded = load(options.overrides);
-  Dynamics& dynamics = loaded.system.dynamics;
-  if (!dynamics.forces || dynamics.forces->empty()) dynamics.everywhere = true;
-  return loaded;
-}
-
 ComparePlan compare_plan(const Options& options) {
   ComparePlan plan;
   if (options.schemes == "all")
@@ -76,8 +68,10 @@ ComparePlan compare_plan(const Options& options) {
 }
 
 LoadedSystem system_of_compare(const Options& options) {
-  return load_compared(options,
-                       [&](const SystemOverrides& overrides) { return load(options, overrides); });
+  LoadedSystem loaded = load_typed(options);
+  Dynamics& dynamics = loaded.system.dynamics;
+  if (!dynamics.forces || dynamics.forces->empty()) dynamics.everywhere = true;  // integrated, too
+  return loaded;
 }
 
 int compare(const Options& options) {

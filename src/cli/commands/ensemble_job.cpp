@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <utility>
+#include <vector>
 
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
+#include "carom/ensemble/sampler.hpp"
 #include "cli/common.hpp"
 #include "io/checkpoint/rank_parts.hpp"
 #include "io/checkpoint/work_folder.hpp"
@@ -89,11 +91,16 @@ EnsembleJob<Result> job_to_go_on(const Options& options, Sharing sharing) {
 }  // namespace
 
 LoadedSystem load_ensemble(const Options& options) {
-  const auto from = [&](const SystemOverrides& overrides) { return load(options, overrides); };
-  const SystemOverrides overrides = overrides_of(options);
-  LoadedSystem loaded = options.command == "lyapunov" && !options.of_sweep
-                            ? load_without_repeats(overrides, from)
-                            : from(overrides);
+  SystemOverrides overrides = overrides_of(options);
+  LoadedSystem loaded = load(options, overrides);
+  // Listed starts that trajectories repeat give the same exponents again, as if their spread were
+  // 0: as many trajectories as starts are listed.
+  if (options.command == "lyapunov" && !options.of_sweep &&
+      !repeated_starts(loaded.system).empty()) {
+    std::erase_if(overrides.set, [](const auto& one) { return one.first == "run.trajectories"; });
+    overrides.trajectories = std::to_string(listed_trajectories(loaded.system));
+    loaded = load(options, overrides);
+  }
   choose_engine(options.engine, loaded.system);
   return loaded;
 }

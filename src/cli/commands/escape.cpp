@@ -9,11 +9,6 @@
 
 namespace carom::cli {
 
-LoadedSystem system_of_escape(const Options& options) {
-  check_escape_options(options);
-  return load_ensemble(options);
-}
-
 int escape(const Options& options) {
   refuse_parts_of_others(options);
   check_escape_options(options);

@@ -9,7 +9,6 @@
 #include "carom/ensemble/single_run.hpp"
 #include "carom/events/world.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/commands/section.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/doubts.hpp"
 #include "cli/reports/section_report.hpp"
@@ -33,27 +32,26 @@ SystemOverrides section_overrides(const Options& options) {
   return overrides;
 }
 
-}  // namespace
-
 // Every hit is a point: orbits that are asked for a number of points have no last time. On one
 // wall, on a line or at a velocity they may never have so many. Where the section is taken the
 // command line or the file says.
-LoadedSystem load_section(const Options& options, const Load& load) {
+LoadedSystem load_section(const Options& options) {
   SystemOverrides overrides = section_overrides(options);
   const bool last_time = !overrides.t_max.empty() ||
                          std::any_of(overrides.set.begin(), overrides.set.end(),
                                      [](const auto& one) { return one.first == "run.t_max"; });
-  if (options.points.empty() || last_time) return load(overrides);
-  LoadedSystem loaded = load(overrides);
+  if (options.points.empty() || last_time) return load(options, overrides);
+  LoadedSystem loaded = load(options, overrides);
   const SectionPlan& plan = loaded.system.section;
   if (!plan.boundary || plan.wall >= 0) return loaded;
   overrides.t_max = fmt::format("{}", no_last_time);
-  return load(overrides);
+  return load(options, overrides);
 }
 
+}  // namespace
+
 LoadedSystem system_of_section(const Options& options) {
-  LoadedSystem loaded = load_section(
-      options, [&](const SystemOverrides& overrides) { return load(options, overrides); });
+  LoadedSystem loaded = load_section(options);
   choose_engine(options.engine, loaded.system);
   return loaded;
 }

@@ -36,7 +36,7 @@ bool asks_for_a_system(const Options& options) {
 
 class Sweep {
  public:
-  Sweep(const Options& options, const SweptCommand& command)
+  Sweep(const Options& options, SweptCommand command)
       : options_(options),
         command_(command),
         ranks_(is_plain_ensemble(options) ? start_ranks() : nullptr) {}
@@ -58,7 +58,7 @@ class Sweep {
   void say_what_is_kept();
 
   Options options_;
-  const SweptCommand& command_;
+  const SweptCommand command_;
   Ranks* ranks_;
   SweepResult result_;
   ArchiveLock lock_;
@@ -74,7 +74,7 @@ constexpr const char *begin_value = "begin", *resume_value = "resume", *stop_her
 void Sweep::prepare() {
   check_engine(options_);
   if (!options_.resume.empty()) return go_on(archive_named(options_.resume));
-  result_.plan = plan_of_sweep(options_, command_);
+  result_.plan = plan_of_sweep(options_);
   file_ = options_.output;
   if (file_.empty()) return;
   lock_ = lock_output(options_, file_);
@@ -107,7 +107,7 @@ void Sweep::go_on(const std::string& file) {
       throw InputError(Place{"command line", 0, 0, "--resume"},
                        "a sweep that goes on is not changed",
                        "SYSTEM and all options as before, or none of them");
-    refuse_another(result_.plan, plan_of_sweep(options_, command_), file_);
+    refuse_another(result_.plan, plan_of_sweep(options_), file_);
   }
   restore_options(result_.plan, options_);
   if (complete_) return;
@@ -152,7 +152,7 @@ int Sweep::compute(std::size_t index, const std::string& archive, bool goes_on) 
     result_.rows.push_back({index, std::move(row)});
   };
   one.of_sweep = value;
-  return command_.run(one);
+  return command_(one);
 }
 
 int Sweep::compute_all() {
@@ -275,8 +275,6 @@ bool is_sweep(const Options& options) {
   return false;
 }
 
-int sweep(const Options& options, const SweptCommand& command) {
-  return Sweep(options, command).run();
-}
+int sweep(const Options& options, SweptCommand command) { return Sweep(options, command).run(); }
 
 }  // namespace carom::cli

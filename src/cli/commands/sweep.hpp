@@ -1,24 +1,22 @@
 // --sweep: a command for each of many values of a key, or for each point of a plane of two.
 #pragma once
 
-#include "carom/io/system_file.hpp"
+#include <string>
+
 #include "cli/options.hpp"
 #include "cli/reports/sweep_report.hpp"
 
 namespace carom::cli {
 
 /// A command that can be swept. What it prints goes through print_report, the system that it
-/// computes comes from load, and `systems` gives the same system without computing anything.
-struct SweptCommand {
-  int (*run)(const Options&);
-  LoadedSystem (*system)(const Options&);
-};
+/// computes comes from load; system_of_command gives the same one without computing anything.
+using SweptCommand = int (*)(const Options&);
 
 /// Is a sweep asked for, or one to go on with?
 bool is_sweep(const Options&);
 /// Computes value after value, each as the command with --set KEY=VALUE does: with the same seed,
 /// the same digest, its own checkpoints, shared among the ranks. Returns the exit status.
-int sweep(const Options&, const SweptCommand&);
+int sweep(const Options&, SweptCommand);
 
 /// Prints what was computed; `file` is its archive, or "".
 void print_sweep(const Options&, SweepResult&, const std::string& file);

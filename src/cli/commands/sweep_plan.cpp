@@ -9,6 +9,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom/io/archive.hpp"
+#include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
 
 namespace carom::cli {
@@ -87,14 +88,14 @@ void refuse_given_twice(const io::SweptKey& swept, const Options& options) {
 }
 
 // A system with the keys at these values.
-LoadedSystem system_at(const Options& options, const SweptCommand& command,
-                       const std::vector<io::SweptKey>& keys, std::size_t index) {
+LoadedSystem system_at(const Options& options, const std::vector<io::SweptKey>& keys,
+                       std::size_t index) {
   Options one = options;
   const std::vector<std::string> values = io::values_at(keys, index);
   for (std::size_t k = 0; k < keys.size(); ++k)
     one.overrides.set.emplace_back(keys[k].key, values[k]);
   try {
-    return command.system(one);
+    return system_of_command(one);
   } catch (const InputError& error) {
     std::string which;
     for (std::size_t k = 0; k < keys.size(); ++k)
@@ -134,19 +135,19 @@ std::vector<io::SweptKey> swept_keys(const Options& options) {
   return keys;
 }
 
-io::SweepPlan plan_of_sweep(const Options& options, const SweptCommand& command) {
+io::SweepPlan plan_of_sweep(const Options& options) {
   io::SweepPlan plan;
   plan.command = options.command;
   plan.keys = swept_keys(options);
   for (std::size_t i = 0; i < io::points_of(plan.keys); ++i) {
-    const LoadedSystem loaded = system_at(options, command, plan.keys, i);
+    const LoadedSystem loaded = system_at(options, plan.keys, i);
     if (i == 0)
       for (const io::SweptKey& swept : plan.keys) refuse_idle_integrator(swept, loaded.system);
     plan.systems.push_back(loaded.resolved_toml);
     plan.system_name = loaded.system.name;
   }
   try {
-    plan.system_toml = command.system(options).resolved_toml;
+    plan.system_toml = system_of_command(options).resolved_toml;
   } catch (const InputError&) {
     plan.system_toml = plan.systems.front();  // the key that is swept is needed
   }

@@ -12,7 +12,7 @@ namespace carom::cli {
 std::vector<io::SweptKey> swept_keys(const Options&);
 /// The plan of the options. Reads the system of every value: throws InputError for one that is bad
 /// input, and for a key that means nothing to the command.
-io::SweepPlan plan_of_sweep(const Options&, const SweptCommand&);
+io::SweepPlan plan_of_sweep(const Options&);
 /// Throws InputError, with `file` as its place, where two plans differ, and says in what. Windows
 /// may differ.
 void refuse_another(const io::SweepPlan& stored, const io::SweepPlan& asked,

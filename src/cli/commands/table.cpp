@@ -31,7 +31,8 @@ int table(const Options& options) {
     print(table_text(system, measured, options.output, options.verbose));
     return done;
   }
-  print(table_json(loaded, measured, options.output, watch).text() + "\n");
+  print(table_json(loaded, measured, options.output, watch.seconds(), watch.cpu_seconds()).text() +
+        "\n");
   return done;
 }
 

@@ -100,10 +100,10 @@ std::string table_text(const System& system, const TableMeasure& measured,
 }
 
 Json table_json(const LoadedSystem& loaded, const TableMeasure& measured, const std::string& output,
-                const Stopwatch& watch) {
+                double seconds, double cpu_seconds) {
   const System& system = loaded.system;
   Json json = Json::object();
-  add_common_keys(json, system, 1, watch.seconds(), watch.cpu_seconds());
+  add_common_keys(json, system, 1, seconds, cpu_seconds);
   json.set("shape", system.table->shape);
   json.set("area", measured.area);
   json.set("perimeter", measured.perimeter);

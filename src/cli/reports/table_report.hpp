@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "carom/ensemble/stopwatch.hpp"
 #include "carom/ensemble/system.hpp"
 #include "carom/io/system_file.hpp"
 #include "io/json.hpp"
@@ -12,7 +11,7 @@ namespace carom::cli {
 
 /// `output`: the drawing, or "". Holes have the numbers that were written.
 io::Json table_json(const LoadedSystem&, const TableMeasure&, const std::string& output,
-                    const Stopwatch&);
+                    double seconds, double cpu_seconds);
 /// `verbose`: with all of many walls.
 std::string table_text(const System&, const TableMeasure&, const std::string& output,
                        bool verbose = false);
