@@ -2,6 +2,8 @@
 
 import html
 import json
+import os
+import tempfile
 from typing import Any
 
 import numpy
@@ -103,12 +105,65 @@ def _kind_of(key, known):
     return None
 
 
+class Kept:
+    """What a pickled report is made of: what it says, as text, and the archive that has its rows."""
+
+    def __init__(self, said, archive):
+        self._said = said
+        self._archive = archive
+        self._outcome = None
+
+    def json(self):
+        return self._said[0]
+
+    def text(self):
+        return self._said[1]
+
+    def doubts(self):
+        return list(self._said[2])
+
+    def __getattr__(self, name):
+        if self._archive is None:
+            raise AttributeError(name)
+        if self._outcome is None:
+            from .commands import opened
+
+            self._folder = tempfile.TemporaryDirectory()  # a sweep's results are read from it later
+            file = os.path.join(self._folder.name, "result.h5")
+            with open(file, "wb") as stream:
+                stream.write(self._archive)
+            self._outcome = opened(file)[1]
+        return getattr(self._outcome, name)
+
+
+def _unpickled(kind, said, archive, *rest):
+    """A report from what `Report.__reduce__` tells."""
+    report = kind(Kept(said, archive), *rest)
+    if archive is not None:
+        report._archive = archive
+    return report
+
+
 class Report:
-    """What a command reports: `print(report)` shows its text, attributes are the keys of its JSON."""
+    """What a command reports: `print(report)` shows its text, attributes are the keys of its JSON. It can
+    be pickled and copied: what it says is kept word for word, rows are kept as its archive."""
 
     def __init__(self, outcome):
         self._outcome = outcome
         self._json = json.loads(outcome.json())
+
+    def __reduce__(self):
+        outcome = self._outcome
+        said = (outcome.json(), outcome.text(), outcome.doubts())
+        return _unpickled, (type(self), said, self._stored(), *self._made_of())
+
+    def _stored(self):
+        """The bytes of its archive, if it has one."""
+        return None
+
+    def _made_of(self):
+        """What its class is called with, beside the outcome."""
+        return ()
 
     @property
     def json(self) -> dict[str, Any]:
@@ -154,7 +209,7 @@ class Report:
         return ""
 
     def __str__(self):
-        return self._outcome.text() if hasattr(self._outcome, "text") else repr(self)
+        return self._outcome.text()
 
     def __repr__(self):
         return f"<carom.{type(self).__name__}{self._of()}: {self._summary()}>"

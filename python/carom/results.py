@@ -15,19 +15,6 @@ from .records import Record, Report, table_of
 from .system import System
 
 
-def _restored(archive):
-    """A result from the bytes of its archive."""
-    from .commands import open as open_archive
-
-    with tempfile.TemporaryDirectory() as folder:
-        file = os.path.join(folder, "result.h5")
-        with open(file, "wb") as stream:
-            stream.write(archive)
-        result = open_archive(file)
-    result._archive = archive
-    return result
-
-
 class OfSystem(Report):
     """What a command reports of a system."""
 
@@ -42,6 +29,9 @@ class OfSystem(Report):
 
     def _of(self):
         return f" of {self._system.name}"
+
+    def _made_of(self):
+        return (self._system,)
 
     def plot(self, ax=None, **keywords):
         """Draws what there is to see with a function of `carom.plot`; returns the axes."""
@@ -139,12 +129,12 @@ class Result(OfSystem):
         with open(path, "wb") as stream:
             stream.write(archive)
 
-    def __reduce__(self):
+    def _stored(self):
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "result.h5")
             self.save(file)
             with open(file, "rb") as stream:
-                return _restored, (stream.read(),)
+                return stream.read()
 
 
 _PER_TRAJECTORY = """One row a particle, None unless asked for.
@@ -199,12 +189,6 @@ class Diffusion(Result):
 
     def _main(self):
         return self.msd
-
-    @property
-    def per_trajectory(self) -> Optional[numpy.ndarray]:
-        return self._outcome.trajectories()
-
-    per_trajectory.__doc__ = _PER_TRAJECTORY
 
 
 class Lyapunov(Result):

@@ -56,6 +56,16 @@ def smaller(command):
     if command.startswith("carom lyapunov three-disc"):  # populations that do not die out
         command = re.sub(r"--trajectories \S+", "--trajectories 15000", command)
     return command
+# The same of Python.
+SMALLER_PYTHON = (
+    (r"100_000", "100"),
+    (r"10\*\*[46]", "20"),
+    (r"points=1000, orbits=20", "points=20, orbits=3"),
+    (r"collisions=1000", "collisions=100"),
+    (r"population=4000", "population=50"),
+    (r"-0.99, 0.99, 200", "-0.99, 0.99, 10"),
+    (r"scale=0.01", "scale=0.0001"),
+)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
@@ -94,4 +104,21 @@ def test_python_of_a_page(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for block in blocks(page, "python"):
         exec(compile(block, str(page), "exec"), {})
+    pyplot.close("all")
+
+
+def test_python_of_the_module(tmp_path, monkeypatch):
+    """The page of the module: each block may use what those before it have made."""
+    monkeypatch.chdir(tmp_path)
+    page, names = GUIDE / "python.md", {}
+    for block in blocks(page, "python"):
+        for pattern, text in SMALLER_PYTHON:
+            block = re.sub(pattern, text, block)
+        if not block.startswith(">>>"):
+            exec(compile(block, str(page), "exec"), names)
+            continue
+        call, told = re.fullmatch(r">>> (.*)\ncarom.errors.InputError: (.*)\n", block).groups()
+        with pytest.raises(names["carom"].InputError) as caught:
+            eval(call, names)
+        assert str(caught.value) == told
     pyplot.close("all")
