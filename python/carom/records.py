@@ -148,6 +148,9 @@ class Report:
     """What a command reports: `print(report)` shows its text, attributes are the keys of its JSON. It can
     be pickled and copied: what it says is kept word for word, rows are kept as its archive."""
 
+    #: Columns of arrays that may have no row, which would tell them.
+    _COLUMNS: dict[str, list[tuple]] = {}
+
     def __init__(self, outcome):
         self._outcome = outcome
         self._json = json.loads(outcome.json())
@@ -182,6 +185,8 @@ class Report:
             nearest = _carom.nearest_name(key, names)
             hint = f"; did you mean '{nearest}'?" if nearest else ""
             raise AttributeError(f"{type(self).__name__} has no '{key}'{hint}")
+        if entries[key] == [] and key in self._COLUMNS:
+            return numpy.empty(0, self._COLUMNS[key])
         return python_of(entries[key])
 
     def __dir__(self):

@@ -51,10 +51,16 @@ class Table(OfSystem):
     holes   (number of holes,): name, wall, center and width (length, along the wall)
     """
 
+    _COLUMNS = {
+        "walls": [("name", "U1"), ("kind", "U1"), ("length", "f8"), ("from", "f8", (2,)), ("to", "f8", (2,))],
+        "holes": [("name", "U1"), ("wall", "U1"), ("center", "f8"), ("width", "f8")],
+    }
+
     @property
     def walls(self) -> numpy.ndarray:
         """(number of walls,): as above; NaN where a wall has no such number (length, radians)."""
-        return table_of(self._json["walls"])
+        rows = self._json["walls"]
+        return table_of(rows) if rows else numpy.empty(0, self._COLUMNS["walls"])
 
     def _summary(self):
         return f"{self.shape}, {counted(len(self.walls), 'wall')}, {counted(len(self.holes), 'hole')}"
@@ -156,6 +162,10 @@ class Escape(Result):
     plateau, p_value, window (time), decided, alternatives; model is None where `reason` says why.
     """
 
+    _COLUMNS = {
+        "holes": [("name", "U1"), ("escaped", "i8"), ("p", "f8"), ("low", "f8"), ("high", "f8")]
+    }
+
     def _summary(self):
         return f"{counted(self.trajectories, 'trajectory')}, {self.escaped} escaped, {self.survived} survived"
 
@@ -206,6 +216,8 @@ class Lyapunov(Result):
     spectrum      (4 · number of particles,): value, stderr (1/time), the largest first
     """
 
+    _COLUMNS = {"distribution": [("from", "f8"), ("to", "f8"), ("count", "i8")]}
+
     @property
     def lambda_(self):
         """The key ``lambda``, which is a word of Python."""
@@ -234,7 +246,7 @@ class Run(Result):
     """One trajectory, of one or several particles.
 
     status, collisions, t (time), x, y (length), vx, vy (length/time) of the end,
-    trusted_collisions; of several particles `particles`, an array with these columns.
+    trusted_collisions; of several particles `particles`, a record of these for each.
     """
 
     @property

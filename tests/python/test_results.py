@@ -154,6 +154,22 @@ def test_types_of_columns_do_not_depend_on_their_values():
     assert {points[name].dtype.kind for name in points.dtype.names if name != "wall"} == {"f"}
 
 
+def test_columns_do_not_depend_on_the_number_of_rows():
+    """An array without rows has the columns of one with rows."""
+    stadium, few = carom.system("stadium"), {"trajectories": 20, "t_max": 20}
+    pairs = [
+        (carom.table(stadium.closed()).holes, carom.table(stadium).holes),
+        (carom.escape(stadium.closed(), **few).holes, carom.escape(stadium, **few).holes),
+        (carom.table("henon-heiles").walls, carom.table(carom.rectangle()).walls),
+    ]
+    for without, some in pairs:
+        assert without.shape == (0,) and len(some) > 0
+        assert without.dtype.names == some.dtype.names
+        assert [without[n].dtype.kind for n in some.dtype.names] == [some[n].dtype.kind for n in some.dtype.names]
+    columns = carom.lyapunov(stadium, **few).distribution.dtype
+    assert columns == carom.Lyapunov._COLUMNS["distribution"]
+
+
 def test_types_of_dataframes_do_not_depend_on_their_values():
     pytest.importorskip("pandas")
     frame = carom.orbits("three-disc", hits=2).to_dataframe()
