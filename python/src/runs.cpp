@@ -81,7 +81,7 @@ struct RunOutcome {
   LoadedPointer system;
   SingleRunResult result;
   std::string status;
-  std::uint64_t trajectory = 0;
+  std::optional<std::uint64_t> trajectory = 0;  ///< none: of an archive of an earlier build
   std::shared_ptr<const std::vector<HitRow>> hits;
   std::shared_ptr<const std::vector<SampleRow>> samples;
   std::shared_ptr<const std::vector<ContactRow>> contacts;
@@ -167,6 +167,7 @@ RunOutcome open_run(const std::string& file) {
   outcome.starts = read_starts(file);
   if (outcome.starts.empty()) outcome.starts = drawn_starts(system);
   outcome.status = stored.status;
+  outcome.trajectory = stored.trajectory;
   outcome.hits = std::make_shared<const std::vector<HitRow>>(read_hits(file));
   outcome.samples = std::make_shared<const std::vector<SampleRow>>(read_samples(file));
   outcome.contacts = std::make_shared<const std::vector<ContactRow>>(read_contacts(file));

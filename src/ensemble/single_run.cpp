@@ -272,6 +272,7 @@ class SingleRun {
   }
 
  private:
+  std::uint64_t trajectory() const { return options_.trajectory.value_or(0); }
   /// The number in the system of a particle of the world.
   std::size_t number(std::size_t body) const { return static_cast<std::size_t>(numbers_[body]); }
   State state(std::size_t body) const { return world_.state(static_cast<int>(body)); }
@@ -280,10 +281,10 @@ class SingleRun {
   void add_particles(Observer& observer) {
     if (system_.run.collisions > 0) world_.limit_hits(system_.run.collisions);
     if (system_.run.sample > 0.0) world_.sample_every(system_.run.sample);
-    if (!goes_on_) add_starts(world_, sampler_, options_.trajectory);
+    if (!goes_on_) add_starts(world_, sampler_, trajectory());
     if (!goes_on_ && options_.started) options_.started(world_);
     std::vector<Time> entries(all_.size());
-    for (const InjectedParticle& late : Injector(system_).add(world_, options_.trajectory)) {
+    for (const InjectedParticle& late : Injector(system_).add(world_, trajectory())) {
       all_.push_back(late.particle);
       entries.push_back(late.state.time);
     }
@@ -435,12 +436,35 @@ class SingleRun {
     result.steps += world_.step_counts();
     result.seconds = watch_.seconds();
     result.cpu_seconds = watch_.cpu_seconds();
-    if (options_.estimate_state_error && !goes_on_ && !was_interrupted_) {
-      double end = 0.0;
-      for (const ParticleProgress& p : progress_) end = std::max(end, p.end.value());
-      result.state_error = state_error(system_, options_.trajectory, end, options_.interrupted);
-    }
+    if (options_.estimate_state_error && system_.dynamics.forces &&
+        !system_.dynamics.forces->empty())
+      estimate_state_error(result, last);
     return result;
+  }
+
+  /// The run is repeated from its start, also one that goes on.
+  void estimate_state_error(SingleRunResult& result, const std::vector<State>& last) {
+    const auto any_unresolved = [&] {
+      return std::any_of(progress_.begin(), progress_.end(),
+                         [](const ParticleProgress& one) { return one.fate == Fate::unresolved; });
+    };
+    double end = 0.0;
+    for (const ParticleProgress& p : progress_) end = std::max(end, p.end.value());
+    if (!options_.trajectory) {
+      result.no_state_error =
+          "an earlier build began the archive, and did not store which start was drawn";
+      return;
+    }
+    try {
+      if (!interrupted_())
+        result.state_error =
+            state_error(system_, *options_.trajectory, end, options_.interrupted, last);
+    } catch (const SamplingStopped&) {  // the run itself has its result
+    }
+    if (!result.state_error)
+      result.no_state_error = any_unresolved() ? "a step did not resolve the forces"
+                              : interrupted_() ? "interrupted"
+                                               : "no time has passed";
   }
 
   const System& system_;

@@ -52,7 +52,8 @@ State state_of(const World& world, int particle, double t) {
 }  // namespace
 
 std::optional<StateError> state_error(const System& system, std::uint64_t trajectory, double t_end,
-                                      const std::function<bool()>& stopped) {
+                                      const std::function<bool()>& stopped,
+                                      const std::vector<State>& reached) {
   if (!system.dynamics.forces || system.dynamics.forces->empty() || !(t_end > 0.0) ||
       !std::isfinite(t_end))
     return {};
@@ -123,6 +124,16 @@ std::optional<StateError> state_error(const System& system, std::uint64_t trajec
         is_adaptive(system.dynamics.integrator.scheme) ? margin_of_adaptive : margin;
     error.position += times * most.position;
     error.velocity += times * most.velocity;
+    if (look == looks && !reached.empty()) {
+      StateError parts;
+      for (int i = 0; i < count; ++i) {
+        const State a = state_of(as_run, i, t), b = reached[static_cast<std::size_t>(i)];
+        parts.position = std::max(parts.position, length(plane(a) - plane(b)));
+        parts.velocity = std::max(parts.velocity, length(a.velocity - b.velocity));
+      }
+      error.position += parts.position;
+      error.velocity += parts.velocity;
+    }
     if (error.position > separated * way || compared > most_compared) break;
   }
   return error;

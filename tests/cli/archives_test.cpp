@@ -110,6 +110,26 @@ TEST(RunArchive, GoesOnAsIfNeverStopped) {
   EXPECT_NE(back.err.find("--t-max: "), std::string::npos) << back.err;
 }
 
+// Afterwards the archive is that of an uninterrupted run: it is of one system.
+TEST(RunArchive, GoesOnWithNothingButTheSameRun) {
+  const Shell shell;
+  shell("$carom run henon-heiles --t-max 5 -o a.h5; $carom run stadium --t-max 2 -o b.h5");
+  const std::pair<const char*, const char*> others[] = {
+      {"a.h5 --set integrator.step=0.05", "integrator.step is 0.05, not 0.1"},
+      {"a.h5 --position 0,0 --velocity 1,0", "initial.position"},
+      {"a.h5 --seed 2", "run.seed is 2, not 1"},
+      {"a.h5 --trajectory 3", "--trajectory is 3, not 0"},
+      {"b.h5 --engine steps --set integrator.step=0.1", "integrator"}};
+  for (const auto& [options, what] : others) {
+    const Outcome o = shell(std::string("$carom run --t-max 9 --resume ") + options);
+    expect_refused(o, std::string(options).substr(0, 4) + ": ");
+    EXPECT_NE(o.err.find(what), std::string::npos) << o.err;
+  }
+  const Outcome same =
+      shell("$carom run --t-max 9 --resume a.h5 --seed 1 --trajectory 0 --set run.sample=1");
+  EXPECT_EQ(same.status, 0) << same.err;
+}
+
 TEST(RunArchive, SaysThatThereIsNothingToGoOnWith) {
   const Shell shell;
   shell("$carom run stadium --collisions 1000 -o gone.h5");

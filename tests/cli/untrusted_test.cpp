@@ -205,5 +205,57 @@ TEST(Untrusted, RunsThatGoOnCountOn) {
   EXPECT_LE(whole(parts.out, "force_evaluations"), whole(at_once.out, "force_evaluations") + 3);
 }
 
+// The error is that of the whole run, from its start on: also where that was drawn, the step chosen
+// or the scheme adaptive.
+TEST(Untrusted, RunsThatGoOnSayTheErrorOfTheWholeRun) {
+  const Shell shell;
+  shell(R"(cat > hill.toml <<'END'
+[table]
+shape = "rectangle"
+width = 2
+height = 1
+[[potential]]
+kind = "gaussian"
+height = 0.3
+width = 0.2
+center = [1, 0.5]
+[particles]
+speed = 1
+[initial]
+kind = "uniform"
+END)");
+  for (const char* how : {"", " --set integrator.scheme=arkode --set integrator.tolerance=1e-9",
+                          " --set integrator.step=0.02 --seed 3"}) {
+    // Steps of no fixed length are others after a rest.
+    const bool adaptive = std::string(how).find("arkode") != std::string::npos;
+    const std::string run = std::string("$carom run hill.toml --trajectory 5 --json") + how;
+    const Outcome at_once = shell(run + " --t-max 20");
+    shell(run + " --t-max 7 -o a.h5 --force");
+    shell("$carom run --resume a.h5 --t-max 15");
+    const Outcome parts = shell("$carom run --resume a.h5 --t-max 20 --json");
+    EXPECT_EQ(parts.status, 0) << parts.err;
+    for (const char* key : {"position", "velocity"}) {
+      const double error = within(at_once.out, "state_error", key);
+      EXPECT_GT(error, 0.0);
+      EXPECT_NEAR(within(parts.out, "state_error", key), error, adaptive ? 0.5 * error : 0.0)
+          << how;
+    }
+    EXPECT_TRUE(adaptive || json_value(parts.out, "x") == json_value(at_once.out, "x")) << how;
+    EXPECT_EQ(json_value(parts.out, "state_error_reason"), "");
+    EXPECT_NE(shell("$carom run --resume a.h5 --t-max 20").out.find("\n  state error   "),
+              std::string::npos);
+  }
+}
+
+TEST(Untrusted, AnInterruptedRunSaysWhyItHasNoStateError) {
+  const Shell shell;
+  const Outcome o = shell(
+      "$carom run henon-heiles --t-max 1e9 -o a.h5 --json --quiet & pid=$!; until_there a.h5; "
+      "sleep 1; kill -TERM $pid; wait $pid");
+  EXPECT_EQ(o.status, 130) << o.err;
+  EXPECT_EQ(json_value(o.out, "state_error"), "null") << o.out;
+  EXPECT_EQ(json_value(o.out, "state_error_reason"), "\"interrupted\"");
+}
+
 }  // namespace
 }  // namespace carom

@@ -125,5 +125,30 @@ TEST(StateErrors, ErrorsEndWhereChaosSeparatesTheRuns) {
   EXPECT_FALSE(state_error(load_system("stadium", {}).system, 0, 10.0));
 }
 
+TEST(StateErrors, SayWhyThereIsNone) {
+  System system = well("1", "[integrator]\nstep = 0.05\n");
+  Observer observer;
+  SingleRunOptions options;
+  options.estimate_state_error = true;
+  const SingleRunResult whole = run_single(system, observer, options);
+  EXPECT_EQ(whole.no_state_error, "");
+  system.run.t_max = 4.0;
+  options.resume = {run_single(system, observer, options).particles[0].progress};
+  system.run.t_max = 20.0;
+  const SingleRunResult parts = run_single(system, observer, options);
+  ASSERT_TRUE(parts.state_error);
+  EXPECT_EQ(parts.state_error->position, whole.state_error->position);
+  options.trajectory.reset();
+  const SingleRunResult unknown = run_single(system, observer, options);
+  EXPECT_FALSE(unknown.state_error);
+  EXPECT_NE(unknown.no_state_error.find("which start was drawn"), std::string::npos);
+  options.interrupted = [] { return true; };  // at once: while the start is drawn again
+  options.trajectory = 0;
+  EXPECT_NE(run_single(system, observer, options).no_state_error.find("interrupted"),
+            std::string::npos);
+  options.estimate_state_error = false;
+  EXPECT_EQ(run_single(system, observer, options).no_state_error, "");
+}
+
 }  // namespace
 }  // namespace carom

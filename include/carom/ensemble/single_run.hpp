@@ -56,9 +56,10 @@ struct SingleRunOptions {
   std::function<bool()>
       interrupted;  ///< asked between events, and while starts are drawn: SamplingStopped
   std::function<void(const World&)> started;  ///< told once, when all starts are in the world
-  std::uint64_t trajectory = 0;               ///< index: which start is drawn
-  bool estimate_state_error =
-      false;  ///< under forces: costs up to three times the run (ensemble/state_error.hpp)
+  /// Index: which start is drawn, also of the run that is resumed. None: it is not known any more.
+  std::optional<std::uint64_t> trajectory = 0;
+  /// Under forces: costs up to three times the run from its start (ensemble/state_error.hpp).
+  bool estimate_state_error = false;
   /// What the system's doubles were rounded from; null: they are what is meant.
   std::shared_ptr<const analysis::WrittenSystem> written;
 };
@@ -68,10 +69,10 @@ struct SingleRunResult {
   std::vector<RunEnd> particles;
   bool interrupted = false;
   std::uint64_t collisions = 0;
-  std::uint64_t contacts = 0;  ///< of hard discs, each pair once
-  StepCounts steps;            ///< under forces
-  std::optional<StateError>
-      state_error;  ///< under forces, where it is asked for and the run began at its start
+  std::uint64_t contacts = 0;             ///< of hard discs, each pair once
+  StepCounts steps;                       ///< under forces
+  std::optional<StateError> state_error;  ///< under forces, where it is asked for
+  std::string no_state_error;  ///< why it was asked for under forces and there is none; else ""
   DecisionCounts decisions;
   double seconds = 0, cpu_seconds = 0;
 };

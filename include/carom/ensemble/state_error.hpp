@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "carom/ensemble/system.hpp"
 
@@ -24,8 +25,10 @@ struct StateError {
 inline constexpr double most_compared = 4e6;
 
 /// The error of a run of that trajectory at the time t_end or before. Nothing where no force acts,
-/// for hard discs, or if it was stopped.
+/// for hard discs, or if it was stopped. `reached`: the particles at t_end. A run in parts differs
+/// from the same in one piece where the scheme chooses its steps: by that the error is larger.
 std::optional<StateError> state_error(const System&, std::uint64_t trajectory, double t_end,
-                                      const std::function<bool()>& stopped = {});
+                                      const std::function<bool()>& stopped = {},
+                                      const std::vector<State>& reached = {});
 
 }  // namespace carom

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -74,7 +75,8 @@ class RunArchive : public Observer {
  public:
   static std::unique_ptr<RunArchive> create(const std::string& file, const LoadedSystem&,
                                             const Provenance&, bool force,
-                                            std::uint64_t trajectory = 0, ArchiveLock = nullptr);
+                                            std::optional<std::uint64_t> trajectory = 0,
+                                            ArchiveLock = nullptr);
   /// Goes on with the run stored in `source`: works on a copy aside, which becomes `target`
   /// (often the source itself) when finished.
   static std::unique_ptr<RunArchive> extend(const std::string& source, const std::string& target,
@@ -112,6 +114,7 @@ struct StoredRun {
   std::string engine;  ///< "events", "steps" or "auto"
   std::vector<ParticleProgress> particles;
   StepCounts steps;
+  std::optional<std::uint64_t> trajectory;  ///< none: an earlier build did not store it
 };
 /// Throws InputError for anything but the archive of a finished or interrupted run.
 StoredRun read_run(const std::string& file);
@@ -191,9 +194,9 @@ void check_stored(const Stored<Result>&, const System&);
 /// digits.
 void refuse_other_version(const StoredEnsemble&);
 /// The first key in which two resolved systems differ: "run.seed is 2, not 1". Empty: none. `but`
-/// is a key that may.
+/// are keys that may.
 std::string difference(const std::string& toml, const std::string& other_toml,
-                       const std::string& but = {});
+                       const std::vector<std::string>& but = {});
 
 /// A part of a sum.
 struct EnsemblePart {

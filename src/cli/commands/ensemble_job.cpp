@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -26,10 +27,11 @@ SystemOverrides overrides_of(const Options& options) {
   return overrides;
 }
 
-// The key that may differ from what is stored: a window that the report alone asks for. Exponents
-// are added up within theirs.
-const char* may_differ(const StoredEnsemble& stored) {
-  return stored.kind == kind_of(LyapunovResult()) ? "" : "run.window";
+// What may differ from what is stored: a window that the report alone asks for. Exponents are added
+// up within theirs.
+std::vector<std::string> may_differ(const StoredEnsemble& stored) {
+  if (stored.kind == kind_of(LyapunovResult())) return {};
+  return {"run.window"};
 }
 
 // Loads the system that is stored, and refuses another one.

@@ -76,6 +76,28 @@ void refuse_going_back(const System& system, const StoredRun& stored) {
   }
 }
 
+// Afterwards the archive is that of an uninterrupted run, so only how far it goes, what is sampled
+// and how much energy may change are open.
+void refuse_another_run(const Options& options, const LoadedSystem& loaded,
+                        const StoredRun& stored) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(Place{options.resume, 0, 0, ""},
+                     "this is another run than the stored one: " + what,
+                     "a later --t-max, more --collisions, or a new run");
+  };
+  // As this build writes it: that of an earlier one may lack keys.
+  const std::string before = read_system(stored.system_toml, options.resume).resolved_toml;
+  const std::string differs = difference(
+      before, loaded.resolved_toml,
+      {"run.t_max", "run.collisions", "run.sample", "run.times", "integrator.energy_tolerance"});
+  if (!differs.empty()) refuse(differs);
+  if (const std::string engine = engine_of(loaded.system); engine != stored.engine)
+    refuse(fmt::format("--engine is {}, not {}", engine, stored.engine));
+  if (!options.trajectory.empty() && stored.trajectory &&
+      whole_number(options.trajectory, "--trajectory", 0) != *stored.trajectory)
+    refuse(fmt::format("--trajectory is {}, not {}", options.trajectory, *stored.trajectory));
+}
+
 // The archive stays as it is, and the result is printed again; that nothing was added must be said.
 void say_if_ended(const StoredRun& stored) {
   const auto ended = [](const ParticleProgress& p) {
@@ -140,9 +162,11 @@ int run(const Options& options) {
     if (!options.overrides.trust_tolerance.empty())
       throw InputError(Place{"command line", 0, 0, "--trust-tolerance"},
                        "the stored run has its own tolerance", "a new run");
+    refuse_another_run(options, loaded, stored);
     catch_interrupts();
     how.resume = stored.particles;
     how.steps = stored.steps;
+    how.trajectory = stored.trajectory;
     refuse_going_back(loaded.system, stored);
     say_if_ended(stored);
     archive = RunArchive::extend(options.resume, output, loaded,

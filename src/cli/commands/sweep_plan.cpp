@@ -168,7 +168,7 @@ void refuse_another(const io::SweepPlan& stored, const io::SweepPlan& asked,
     refuse(
         fmt::format("{}, not {}", counted(asked.systems.size(), "value"), stored.systems.size()));
   for (std::size_t i = 0; i < stored.systems.size(); ++i)
-    if (const std::string differs = difference(stored.systems[i], asked.systems[i], "run.window");
+    if (const std::string differs = difference(stored.systems[i], asked.systems[i], {"run.window"});
         !differs.empty())
       refuse(fmt::format("at value {}, {}", i + 1, differs));
 }

@@ -181,6 +181,8 @@ Json run_json(const System& system, const SingleRunResult& result, const std::st
     error.set("velocity", result.state_error->velocity);
     error.set("until", result.state_error->until);
     json.set("state_error", std::move(error));
+  } else if (!result.no_state_error.empty()) {
+    json.set("state_error", Json()).set("state_error_reason", result.no_state_error);
   }
   const std::string note = energy_note(system, result);
   if (!note.empty()) json.set("note", note);
@@ -205,6 +207,8 @@ std::string run_text(const System& system, const SingleRunResult& result, const 
     for (const RunEnd& particle : result.particles)
       end = std::max(end, particle.progress.end.value());
     text += state_error_text(system, *result.state_error, end);
+  } else if (!result.no_state_error.empty()) {
+    text += folded("  state error   none: " + result.no_state_error, "                ") + "\n";
   }
   text += fmt::format("  computed in   {}\n", short_duration(result.seconds));
   if (verbose) text += fmt::format("  {}\n", decisions_text(result.decisions));

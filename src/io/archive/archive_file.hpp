@@ -60,5 +60,7 @@ hdf5::Handle open_archive(const std::string& name, const std::string& problem,
                           const std::string& expected);
 inline constexpr const char *run_archive_kind = "run", *section_archive_kind = "section",
                             *certified_archive_kind = "certified";
+/// Of a run, in /provenance: which trajectory of the ensemble it is.
+inline constexpr const char* trajectory_key = "trajectory";
 
 }  // namespace carom::io

@@ -167,6 +167,14 @@ std::int64_t read_integer_attribute(hid_t object, const char* name, const std::s
   return value;
 }
 
+std::uint64_t read_count_attribute(hid_t object, const char* name, const std::string& file) {
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  std::uint64_t value = 0;
+  if (!attribute || H5Aread(attribute.get(), H5T_NATIVE_UINT64, &value) < 0)
+    cannot_read(file, name);
+  return value;
+}
+
 double read_real_attribute(hid_t object, const char* name, const std::string& file) {
   const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
   double value = 0.0;

@@ -76,6 +76,7 @@ std::string read_string_attribute(hid_t object, const char* name, const std::str
 std::vector<std::string> read_string_list_attribute(hid_t object, const char* name,
                                                     const std::string& file);
 std::int64_t read_integer_attribute(hid_t object, const char* name, const std::string& file);
+std::uint64_t read_count_attribute(hid_t object, const char* name, const std::string& file);
 double read_real_attribute(hid_t object, const char* name, const std::string& file);
 
 template <class T>

@@ -198,7 +198,8 @@ class RunArchive::Implementation {
         system(loaded.system),
         energies_now(system) {}
 
-  void create(const LoadedSystem& loaded, const Provenance& origin, std::uint64_t trajectory);
+  void create(const LoadedSystem& loaded, const Provenance& origin,
+              std::optional<std::uint64_t> trajectory);
   void reopen(const LoadedSystem& loaded, const Provenance& origin);
   void create_state(std::size_t particles);
   void write_state(const std::vector<RunEnd>& particles);
@@ -222,8 +223,11 @@ class RunArchive::Implementation {
 };
 
 void RunArchive::Implementation::create(const LoadedSystem& loaded, const Provenance& origin,
-                                        std::uint64_t trajectory) {
+                                        std::optional<std::uint64_t> trajectory) {
   file.write_head(run_archive_kind, loaded, origin);
+  if (trajectory)
+    hdf5::write_attribute(file.open_group("provenance").get(), trajectory_key, *trajectory,
+                          file.name());
   std::vector<std::string> walls;
   for (const Wall& wall : table->walls) walls.push_back(wall.name);
   {
@@ -266,7 +270,7 @@ void RunArchive::Implementation::create(const LoadedSystem& loaded, const Proven
   }
   if (is_integrated(loaded.system)) create_steps();
   const std::size_t particles =
-      loaded.system.particles.size() + injected_count(loaded.system, trajectory);
+      loaded.system.particles.size() + injected_count(loaded.system, trajectory.value_or(0));
   create_state(particles);
   if (estimates_trust(loaded.system))
     create_trust(file.group("trust", "How far each particle can be trusted").get(), particles,
@@ -370,7 +374,8 @@ RunArchive::~RunArchive() = default;
 
 std::unique_ptr<RunArchive> RunArchive::create(const std::string& file, const LoadedSystem& loaded,
                                                const Provenance& origin, bool force,
-                                               std::uint64_t trajectory, ArchiveLock lock) {
+                                               std::optional<std::uint64_t> trajectory,
+                                               ArchiveLock lock) {
   hdf5::silence();
   if (!lock) lock = lock_archive(file);
   refuse_existing(file, force);

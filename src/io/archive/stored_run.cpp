@@ -29,6 +29,8 @@ StoredRun read_run(const std::string& name) {
   const Handle provenance(H5Gopen2(file.get(), "provenance", H5P_DEFAULT), H5Gclose);
   run.system_name = hdf5::read_string_attribute(provenance.get(), "system", name);
   run.engine = hdf5::read_string_attribute(provenance.get(), "engine", name);
+  if (H5Aexists(provenance.get(), trajectory_key) > 0)
+    run.trajectory = hdf5::read_count_attribute(provenance.get(), trajectory_key, name);
 
   const Handle state(H5Gopen2(file.get(), "state", H5P_DEFAULT), H5Gclose);
   const auto reals = [&](const char* field) {

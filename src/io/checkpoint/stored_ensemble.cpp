@@ -5,7 +5,9 @@
 #include <cstring>
 #include <fstream>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "carom/base/error.hpp"
 #include "carom/base/whole_number.hpp"
@@ -131,8 +133,11 @@ std::string shown(const io::Value* value) {
 }
 
 std::string difference(const std::string& path, const io::Value& a, const io::Value& b,
-                       const std::string& but) {
+                       const std::vector<std::string>& but) {
   const auto inner = [&](const std::string& key) { return path.empty() ? key : path + "." + key; };
+  const auto may_differ = [&](const std::string& key) {
+    return std::find(but.begin(), but.end(), inner(key)) != but.end();
+  };
   const auto say = [](const std::string& key, const io::Value* x, const io::Value* y) {
     const std::string here = shown(x), there = shown(y);
     return here.empty() || there.empty() ? key + " differs"
@@ -141,7 +146,7 @@ std::string difference(const std::string& path, const io::Value& a, const io::Va
   for (const io::Entry& entry : a.entries) {
     const io::Value* other = b.find(entry.key);
     // Titles are for readers, and name changes that the other keys hold.
-    if (inner(entry.key) == but || inner(entry.key) == "title" ||
+    if (may_differ(entry.key) || inner(entry.key) == "title" ||
         (other != nullptr && same(entry.value, *other, entry.key)))
       continue;
     const bool tables = other != nullptr && entry.value.kind == io::Value::Kind::table &&
@@ -151,7 +156,7 @@ std::string difference(const std::string& path, const io::Value& a, const io::Va
     if (!within.empty()) return within;
   }
   for (const io::Entry& entry : b.entries)
-    if (inner(entry.key) != but && a.find(entry.key) == nullptr)
+    if (!may_differ(entry.key) && a.find(entry.key) == nullptr)
       return say(inner(entry.key), nullptr, &entry.value);
   return {};
 }
@@ -159,7 +164,7 @@ std::string difference(const std::string& path, const io::Value& a, const io::Va
 }  // namespace
 
 std::string difference(const std::string& toml, const std::string& other_toml,
-                       const std::string& but) {
+                       const std::vector<std::string>& but) {
   const io::Value a = io::parse_document(toml, "system"),
                   b = io::parse_document(other_toml, "system");
   return difference("", a, b, but);
