@@ -139,22 +139,6 @@ TEST(Lyapunov, TakesEachListedStartOnce) {
             json_value(one.out, "digest"));
 }
 
-// Of fewer quasi-random starts than replicates there is an exponent, but no error.
-TEST(Lyapunov, SaysWhyQuasiRandomStartsGiveNoError) {
-  const Shell shell;
-  const std::string few =
-      "$carom lyapunov sinai --t-max 20 --quiet --set initial.kind=sobol --trajectories ";
-  const Outcome none = shell(few + "15"), enough = shell(few + "16");
-  EXPECT_NE(on_one_line(none.out).find("16 replicates of the quasi-random starts, and 1 of them"),
-            std::string::npos)
-      << none.out;
-  EXPECT_EQ(none.out.find("errors by 16"), std::string::npos) << none.out;
-  EXPECT_NE(enough.out.find("errors by 16 replicates"), std::string::npos) << enough.out;
-  EXPECT_NE(json_value(shell(few + "15 --json").out, "notes").find("there are no errors"),
-            std::string::npos);
-  EXPECT_EQ(json_value(shell(few + "16 --json").out, "notes"), "[]");
-}
-
 // A gas on a torus hits no wall: its contacts are what was computed, and they are stored.
 TEST(Lyapunov, CountsContactsOfDiscs) {
   const Shell shell;

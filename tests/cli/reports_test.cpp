@@ -216,6 +216,30 @@ TEST(Reports, StepsAreCountedWhereNothingHits) {
   EXPECT_EQ(o.out.find("hits/s"), std::string::npos) << o.out;
 }
 
+// Of fewer quasi-random starts than replicates there is a result, but no error.
+TEST(Reports, SayWhyQuasiRandomStartsGiveNoError) {
+  const Shell shell;
+  const std::pair<const char*, const char*> commands[] = {
+      {"lyapunov sinai", "errors by 16 replicates"},
+      {"escape stadium", "intervals by 16 replicates"}};
+  for (const auto& [command, errors] : commands) {
+    const std::string few = std::string("$carom ") + command +
+                            " --t-max 20 --quiet --set initial.kind=sobol --trajectories ";
+    const std::string why = "16 replicates of the quasi-random starts, and 1 of them";
+    const Outcome none = shell(few + "15"), enough = shell(few + "16");
+    EXPECT_NE(on_one_line(none.out).find(why), std::string::npos) << none.out;
+    EXPECT_EQ(none.out.find(errors), std::string::npos) << none.out;
+    EXPECT_NE(enough.out.find(errors), std::string::npos) << enough.out;
+    EXPECT_NE(json_value(shell(few + "15 --json").out, "no_errors").find(why), std::string::npos);
+    EXPECT_EQ(json_value(shell(few + "16 --json").out, "no_errors"), "");
+    const std::string swept = " --sweep run.seed=list:1,2";
+    const Outcome rows = shell(few + "15" + swept);
+    EXPECT_NE(on_one_line(rows.out).find(why), std::string::npos) << rows.out;
+    EXPECT_EQ(rows.out.find("+-"), std::string::npos) << rows.out;
+    EXPECT_NE(shell(few + "64" + swept).out.find("+-"), std::string::npos);
+  }
+}
+
 // The report is long; what to type next stands below it.
 TEST(Reports, HowToGoOnComesLast) {
   const Shell shell;

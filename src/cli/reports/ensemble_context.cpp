@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "carom/analysis/interval.hpp"
 #include "carom/ensemble/engine.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
@@ -53,6 +54,14 @@ std::string verbose_text(const System& system, const EnsembleResult& result,
   if (!context.verbose) return {};
   return fmt::format("{}\n{}digest {:016x}\n", decisions_text(result.decisions),
                      lanes_text(why_one_by_one(system), result.lanes, effort), result.digest);
+}
+
+std::string no_errors(std::ptrdiff_t empty, const char* lack) {
+  if (empty == 0) return {};
+  return fmt::format(
+      "there are no errors: they come from {} replicates of the quasi-random starts, and {} of "
+      "them {}; take more trajectories, {} at least",
+      replicates, empty, lack, replicates);
 }
 
 Json ensemble_json(const System& system, const EnsembleResult& result,

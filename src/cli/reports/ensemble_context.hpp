@@ -32,6 +32,9 @@ std::string work_text(const System&, std::uint64_t collisions, std::uint64_t con
 /// What only --verbose prints: decisions, digest, lanes.
 std::string verbose_text(const System&, const EnsembleResult&, const EnsembleContext&,
                          const LaneEffort& = {});
+/// Why quasi-random starts give no errors, as a phrase: so many of their replicates lack what is
+/// counted ("have no trajectory"). "" where none does.
+std::string no_errors(std::ptrdiff_t empty, const char* lack);
 /// The keys with which the report of every ensemble begins.
 io::Json ensemble_json(const System&, const EnsembleResult&, const EnsembleContext&);
 

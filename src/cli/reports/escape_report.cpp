@@ -96,6 +96,13 @@ std::string fates(const System& system, const SurvivalCounts& counts) {
   return text;
 }
 
+// Why quasi-random starts give no intervals but that of 0 to 1, as a phrase; "" where they do.
+std::string why_no_error(const SurvivalCounts& counts) {
+  return no_errors(std::count_if(counts.parts.begin(), counts.parts.end(),
+                                 [](const Replicate& part) { return part.followed == 0; }),
+                   "followed no trajectory");
+}
+
 }  // namespace
 
 Json result_json(const System& system, const EscapeResult& result, const EnsembleContext& context) {
@@ -145,6 +152,7 @@ Json result_json(const System& system, const EscapeResult& result, const Ensembl
                    .set("low", low)
                    .set("high", high));
   if (!counts.parts.empty()) json.set("replicates", counts.parts.size());
+  if (const std::string none = why_no_error(counts); !none.empty()) json.set("no_errors", none);
   json.set("survival", std::move(by_time));
   json.set("survival_hits", std::move(by_hits));
   json.set("rate", std::move(rates));
@@ -163,14 +171,10 @@ std::string result_text(const System& system, const EscapeResult& result,
       head_text(system, counts.trajectories, system.run.t_max, result.complete, context);
   if (const std::string note = repeated_starts(system); !note.empty()) text += folded(note) + '\n';
   text += survival_table(counts, context);
-  if (!counts.parts.empty())
-    text +=
-        counts.trajectories < replicates
-            ? fmt::format(
-                  "the intervals say nothing: quasi-random starts take {} trajectories "
-                  "at least\n",
-                  replicates)
-            : fmt::format("intervals by {} replicates of the quasi-random starts\n", replicates);
+  if (const std::string none = why_no_error(counts); !none.empty())
+    text += folded(none) + '\n';
+  else if (!counts.parts.empty())
+    text += fmt::format("intervals by {} replicates of the quasi-random starts\n", replicates);
   text += decay_text(decay_of(system, result));
   text += decay_by_hits_text(fit_decay_by_hits(counts));
   text += fates(system, counts);

@@ -54,13 +54,11 @@ std::string no_exponent(const System& system, const LyapunovResult& result) {
 
 // Why quasi-random starts give no error, as a phrase; "" where they do.
 std::string why_no_error(const GrowthSums& sums, const LyapunovEstimate& e) {
-  if (sums.parts().empty() || std::isfinite(e.per_time.error)) return {};
+  if (sums.totals().orbits == 0 || sums.parts().empty() || std::isfinite(e.per_time.error))
+    return {};
   const auto without = std::count_if(sums.parts().begin(), sums.parts().end(),
                                      [](const auto& part) { return part.orbits == 0; });
-  return fmt::format(
-      "there are no errors: they come from {} replicates of the quasi-random starts, and {} of "
-      "them followed no orbit to the end of the window; take more trajectories, {} at least",
-      replicates, without, replicates);
+  return no_errors(without, "followed no orbit to the end of the window");
 }
 
 void add_notes_of(const RepellerExponent& r, std::vector<std::string>& notes) {
@@ -280,6 +278,7 @@ Json result_json(const System& system, const LyapunovResult& result,
     errors.push(
         Json::object().set("length", one.length).set("count", one.count).set("stderr", one.error));
   if (!sums.parts().empty()) json.set("replicates", sums.parts().size());
+  if (const std::string none = why_no_error(sums, e); !none.empty()) json.set("no_errors", none);
   json.set("block_errors", std::move(errors)).set("long_enough", e.long_enough);
   for (const ExponentBin& bin : distribution_of(sums))
     bins.push(Json::object().set("from", bin.from).set("to", bin.to).set("count", bin.count));

@@ -104,7 +104,7 @@ Found find(const Json& report, const Quantity& quantity) {
   if (!found) return {};
   Found result{found->number().value_or(none), number_at(report, quantity.error), ""};
   // Both sides of a 95 % interval are 1.96 standard errors of a normal distribution.
-  if (*quantity.low)
+  if (*quantity.low && !report.find("no_errors"))
     result.error = (number_at(report, quantity.high) - number_at(report, quantity.low)) / 3.92;
   if (std::isnan(result.value)) result.text = found->string().value_or("");
   return result;
@@ -204,7 +204,7 @@ struct Reason {
 std::vector<Reason> reasons_of(const SweepResult& result) {
   std::vector<Reason> all;
   for (const SweepRow& row : result.rows)
-    for (const char* path : {"reason", "fit.reason"}) {
+    for (const char* path : {"reason", "fit.reason", "no_errors"}) {
       const Json* found = row.report.find(path);
       const std::string text = found ? found->string().value_or("") : "";
       if (text.empty()) continue;
