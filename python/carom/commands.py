@@ -152,8 +152,8 @@ def escape(
     window=(from, to): times (time) between which the decay is fitted.
 
     sweep={"field.B": values}: a `carom.Sweep`, a result for each value of a key; values are numbers
-    or "lin:0:4:20", "log:1:1000:4"; two keys make a plane. Every value has the same seed. So with
-    all commands that move particles, relax, orbits and compare.
+    or "lin:0:4:20", "log:1:1000:4"; two keys make a plane. All have the same seed, unless
+    that is swept. So with all commands that move particles, relax, orbits and compare.
 
     certify_sample=M, digits=D: a `carom.CertifiedSample`, the first M trajectories in doubles and
     certified. splitting="10,20,40" (times) or "hits:lin:0:30:31", with population, repetitions,

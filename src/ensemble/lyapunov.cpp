@@ -153,6 +153,11 @@ std::optional<InputError> why_nothing(const System& system, const LyapunovResult
                   base::counted(result.trajectories, "particle"), result.growth.window().to);
   if (const auto& error = result.no_repeller)
     return InputError(error->place(), ended + ", and " + error->problem(), error->expected());
+  if (result.capped > 0)
+    return InputError(Place{"", 0, 0, "run.collisions"},
+                      fmt::format("{}: {} of them after {}", ended, base::grouped(result.capped),
+                                  base::counted(system.run.collisions, "collision")),
+                      "more --collisions, or a window (--window) that some of them outlive");
   return InputError(Place{"", 0, 0, "run.t_max"}, ended,
                     "a run (--t-max) or a window (--window) that some of them outlive");
 }

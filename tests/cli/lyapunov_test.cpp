@@ -80,6 +80,25 @@ TEST(Lyapunov, RefusesWhatEndsTooEarly) {
   expect_refused(shell("$carom lyapunov stadium --window 5:20 --t-max 10"), "run.window");
 }
 
+// Where the cap on hits ends the particles, a longer time helps none of them.
+TEST(Lyapunov, AdvisesWhatLetsParticlesGoOn) {
+  const Shell shell;
+  const std::string capped = "$carom lyapunov stadium --closed --trajectories 50 --collisions ";
+  const Outcome none = shell(capped + "10 --t-max 1000");
+  expect_refused(none, "run.collisions");
+  EXPECT_NE(none.err.find("50 of them after 10 collisions (expected more --collisions"),
+            std::string::npos)
+      << none.err;
+  EXPECT_EQ(none.err.find("--t-max"), std::string::npos) << none.err;
+  const Outcome some = shell(capped + "10 --t-max 25");
+  ASSERT_EQ(some.status, 0) << some.err;
+  EXPECT_NE(on_one_line(some.out).find("; more --collisions would let"), std::string::npos)
+      << some.out;
+  const Outcome gone = shell("$carom lyapunov stadium --trajectories 50 --t-max 4000");
+  EXPECT_EQ(gone.status, 1);
+  EXPECT_EQ(gone.err.find("--collisions"), std::string::npos) << gone.err;
+}
+
 // Three discs let go of all: the exponent is that of the orbits that never leave.
 TEST(Lyapunov, OfTheRepellerIsTheSameOnThreadsAndFromParts) {
   const Shell shell;

@@ -99,6 +99,23 @@ TEST(Sweep, SaysWhyValuesHaveNoResult) {
   }
 }
 
+TEST(Sweep, SaysOfEachValueOnlyWhatIsTheSame) {
+  const Shell shell;
+  const std::string run = "$carom escape stadium --t-max 5 --quiet ";
+  const std::string few = "--trajectories 20 ", radii = "--sweep table.radius=list:1,2";
+  const Outcome all = shell(run + few + radii),
+                seeds = shell(run + few + "--sweep run.seed=list:1,2"),
+                sizes = shell(run + "--sweep run.trajectories=list:20,30");
+  const auto says = [](const Outcome& o, const char* what) {
+    return on_one_line(o.out).find(what) != std::string::npos;
+  };
+  EXPECT_TRUE(says(all, "from 1 to 2, 20 trajectories each, seed 1 for each")) << all.out;
+  EXPECT_TRUE(says(seeds, "from 1 to 2, 20 trajectories each  ")) << seeds.out;
+  EXPECT_TRUE(says(sizes, "from 20 to 30, seed 1 for each")) << sizes.out;
+  EXPECT_EQ(json_value(shell(run + few + radii + " --json").out, "seed"), "1");
+  EXPECT_EQ(json_value(shell(run + few + "--sweep run.seed=list:1,2 --json").out, "seed"), "null");
+}
+
 TEST(Sweep, NamesWhatIsBadBeforeItComputes) {
   const Shell shell;
   const std::pair<const char*, const char*> bad[] = {

@@ -146,10 +146,14 @@ std::vector<std::string> notes_of(const System& system, const LyapunovResult& re
     notes.push_back(std::move(none));
   // Those that are one orbit are followed only as long as none of them ends.
   const std::uint64_t each = together(system) ? system.particles.size() : 1;
-  if (const std::uint64_t followed = each * totals.orbits; followed < result.trajectories)
-    notes.push_back(fmt::format(
+  if (const std::uint64_t followed = each * totals.orbits; followed < result.trajectories) {
+    std::string note = fmt::format(
         "{} ended before the end of the window: the numbers are those of {}",
-        counted(result.trajectories - followed, "particle"), counted(followed, "other")));
+        counted(result.trajectories - followed, "particle"), counted(followed, "other"));
+    if (result.capped > 0)
+      note += fmt::format("; more --collisions would let {} of them go on", grouped(result.capped));
+    notes.push_back(std::move(note));
+  }
   if (!e.long_enough)
     notes.push_back(
         "the error still grows with the length of the blocks: it is too small, and takes longer "

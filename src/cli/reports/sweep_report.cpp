@@ -152,6 +152,11 @@ std::string named(const io::SweepPlan& plan, std::size_t index) {
   return text;
 }
 
+bool sweeps(const io::SweepPlan& plan, const std::string& key) {
+  return std::any_of(plan.keys.begin(), plan.keys.end(),
+                     [&](const io::SweptKey& swept) { return swept.key == key; });
+}
+
 std::string head(const SweepResult& result) {
   std::string text;
   for (const io::SweptKey& key : result.plan.keys)
@@ -161,11 +166,12 @@ std::string head(const SweepResult& result) {
   if (result.rows.empty())
     return folded(result.title) + "\n" + folded(text + ": none was computed") + "\n";
   const Json& first = result.rows.front().report;
-  if (const double all = number_at(first, "trajectories"); !std::isnan(all))
+  if (const double all = number_at(first, "trajectories");
+      !std::isnan(all) && !sweeps(result.plan, "run.trajectories"))
     text += fmt::format(", {} each", counted(static_cast<std::uint64_t>(all), "trajectory"));
-  const std::string seed = first.find("seed") ? first.find("seed")->text() : "";
-  return folded(result.title) + "\n" + folded(text + fmt::format(", seed {} for each", seed)) +
-         "\n";
+  if (const Json* seed = first.find("seed"); seed && !sweeps(result.plan, "run.seed"))
+    text += fmt::format(", seed {} for each", seed->text());
+  return folded(result.title) + "\n" + folded(text) + "\n";
 }
 
 std::string table(const SweepResult& result) {
@@ -246,9 +252,11 @@ std::optional<InputError> why_nothing(const SweepResult& result) {
       !std::all_of(result.rows.begin(), result.rows.end(),
                    [](const SweepRow& row) { return row.measured_nothing(); }))
     return std::nullopt;
-  return InputError(Place{"command line", 0, 0, "--sweep"},
-                    "no value measures an exponent; " + reasons_of(result).front().sentence(),
-                    "a value, --t-max, --window or --trajectories of which one can be measured");
+  return InputError(
+      Place{"command line", 0, 0, "--sweep"},
+      "no value measures an exponent; " + reasons_of(result).front().sentence(),
+      "a value, --t-max, --collisions, --window or --trajectories of which one can be "
+      "measured");
 }
 
 std::vector<SweepColumn> sweep_table(const io::SweepPlan& plan, const std::vector<SweepRow>& rows) {
@@ -302,7 +310,8 @@ Json sweep_json(const SweepResult& result) {
   json.set("command", result.plan.command);
   if (!result.rows.empty())
     for (const char* key : {"seed", "threads", "engine", "isa"})
-      if (const Json* found = result.rows.front().report.find(key)) json.set(key, *found);
+      if (const Json* found = result.rows.front().report.find(key))
+        json.set(key, sweeps(result.plan, fmt::format("run.{}", key)) ? Json() : *found);
   json.set("seconds", sum_of(result, "seconds")).set("cpu_seconds", sum_of(result, "cpu_seconds"));
   json.set("status", result.status);
   Json keys = Json::array(), rows = Json::array();
