@@ -43,6 +43,8 @@ TEST(Digits, AreThoseThatTheErrorAllows) {
   EXPECT_EQ(rounding_of(1.23456e-7, 3e-8)(0.0), "0");
   EXPECT_EQ(cli::with_error(0.169934, 0.00031), "0.16993 +- 0.00031");
   EXPECT_EQ(cli::with_error(4.5678e-8, 1.2e-9), "4.57e-08 +- 1.2e-09");
+  EXPECT_EQ(cli::with_error(2.0, 1.23e-13), "2.000000000 +- 1.2e-13");
+  EXPECT_EQ(cli::with_error(0.142640387289, 3.04e-10), "0.1426403873 +- 3.0e-10");
 }
 
 TEST(Digits, TellTimesApart) {
@@ -86,6 +88,12 @@ TEST(Lines, FitATerminal) {
       "orbit magnetic-square --hits 3 --starts 500 --tries 50 --verbose",
       "section siam-photon --set 'initial={kind=\"uniform\"}' --orbits 9",
       "compare coulomb-circle --schemes yoshida-6 --t-max 0.05",
+      "schemes",
+      "diffusion stadium --trajectories 40 --t-max 3 --verbose",
+      "diffusion magnetic-square --trajectories 40 --t-max 3",
+      "escape stadium --trajectories 3e6 --t-max 5 --verbose",
+      "run stadium --closed --t-max 30 --set particles.count=300 --verbose",
+      "run stadium --closed --t-max 1e5 --set particles.count=3",
       "--help"};
   for (const char* command :
        {"escape", "run", "diffusion", "lyapunov", "section", "relax", "compare", "schemes", "orbit",
@@ -95,6 +103,35 @@ TEST(Lines, FitATerminal) {
     const Outcome o = shell("$carom " + command);
     EXPECT_EQ(o.status, 0) << command << o.err;
     EXPECT_LE(cli::width_of(o.out), cli::line_width) << command << '\n' << o.out;
+  }
+}
+
+// (1) Every line of a table fits, (2) no column is lost, (3) each table begins with the first one,
+// and (4) what belongs together stays so.
+TEST(Lines, OfWideTablesFollowBelow) {
+  for (std::size_t width = 1; width < 36; ++width) {
+    std::vector<cli::Column> columns{{"row", {"1", "2"}}};
+    for (int c = 0; c < 6; ++c)
+      columns.push_back({"c" + std::to_string(c),
+                         {std::string(width, 'x'), std::string(width, 'y')},
+                         false,
+                         c % 2 == 1});
+    const std::string text = cli::fitted(columns);
+    EXPECT_LE(cli::width_of(text), cli::line_width) << text;
+    std::size_t tables = 0, headers = 0;
+    for (const std::string& line : lines_of(text)) {
+      if (!line.starts_with("  row")) continue;
+      ++tables;
+      for (int c = 0; c < 6; ++c) {
+        const bool here = line.find("c" + std::to_string(c)) != std::string::npos;
+        headers += here;
+        const bool next = line.find("c" + std::to_string(c + 1)) != std::string::npos;
+        EXPECT_TRUE(c % 2 == 1 || here == next) << line;
+      }
+    }
+    EXPECT_EQ(headers, 6u) << text;
+    EXPECT_EQ(tables, width <= 10 ? 1u : width <= 16 ? 2u : 3u) << width << text;
+    EXPECT_TRUE(tables > 1 || text == cli::aligned(columns));
   }
 }
 
@@ -176,6 +213,9 @@ TEST(Reports, FitTheScreen) {
   expect_fit("escape stadium --splitting lin:0:50:11 --population 200", 40);
   expect_fit("escape stadium --certify-sample 20 --t-max 20", 30);
   expect_fit("run magnetic-square --closed --collisions 1000 --set particles.count=40", 30);
+  expect_fit("escape stadium --trajectories 3e6 --t-max 5", 34);
+  expect_fit("diffusion stadium --trajectories 40 --t-max 3", 38);
+  expect_fit("schemes", 80);
   expect_fit("validate --scale 0.001", 300);
 }
 

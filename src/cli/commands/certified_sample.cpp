@@ -145,7 +145,7 @@ std::string text_of(const PairedEscapeResult& result, int digits, std::size_t mo
     for (std::size_t c = 0; c < std::size(cells); ++c) columns[c + 1].cells.push_back(cells[c]);
   }
   columns.front().cells = times_text(times);
-  text += "\n" + aligned(columns) + "\n";
+  text += "\n" + fitted(columns) + "\n";
   text += fmt::format(
       "  largest difference    {:.2f} standard errors;\n"
       "                        {} random swaps of pairs exceed {:.2f} in 5 %\n",

@@ -188,11 +188,11 @@ std::string splitting_text(const System& system, const SplittingResult& result, 
     p_table.add(point.at, point.p);
     equivalent.push_back(fmt::format("{:.1e}", point.equivalent));
   }
-  text += aligned({{variable, times_text(p_table.at)},
-                   {"p", p_table.value},
-                   {"std error", p_table.error},
-                   {"extrapolation", p_table.extrapolation},
-                   {"as of trajectories", equivalent}});
+  text += fitted({{variable, times_text(p_table.at)},
+                  {"p", p_table.value},
+                  {"std error", p_table.error},
+                  {"extrapolation", p_table.extrapolation},
+                  {"as of trajectories", equivalent}});
   if (std::isfinite(extinction))
     text += fmt::format(
         "{:>12.6g}  {} by then: how rare survival is they do not say.\n"
@@ -204,10 +204,10 @@ std::string splitting_text(const System& system, const SplittingResult& result, 
     if (rates[row].from < extinction) rate_table.add(rates[row].t, rates[row].value);
   if (by_time)
     text += "\n" +
-            aligned({{"t", times_text(rate_table.at)},
-                     {"-dP/dt", rate_table.value},
-                     {"std error", rate_table.error},
-                     {"extrapolation", rate_table.extrapolation}}) +
+            fitted({{"t", times_text(rate_table.at)},
+                    {"-dP/dt", rate_table.value},
+                    {"std error", rate_table.error},
+                    {"extrapolation", rate_table.extrapolation}}) +
             "  -dP/dt between the times before and after t\n";
   text += split_fit_text(fit_decay(result, system.run.window), variable);
   text += fmt::format(

@@ -51,7 +51,8 @@ std::string with_error(double value, double error) {
   if (std::isnan(value)) return "-";
   if (!(error > 0.0) || !std::isfinite(error)) return fmt::format("{:.6g}", value);
   const Rounding rounded = rounding_of(std::max(std::fabs(value), error), error);
-  return rounded(value) + " +- " + rounded(error);
+  constexpr double small = 1e-6;  // has a row of zeros without an exponent, or is cut
+  return rounded(value) + " +- " + (error < small ? fmt::format("{:.1e}", error) : rounded(error));
 }
 
 std::vector<std::string> times_text(const std::vector<double>& times) {
@@ -99,6 +100,25 @@ std::string aligned(const std::vector<Column>& columns) {
   for (const std::string& line : lines)
     text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
   return text;
+}
+
+std::string fitted(const std::vector<Column>& columns) {
+  std::string text;
+  std::vector<Column> table(columns.begin(), columns.begin() + 1);
+  for (auto next = columns.begin() + 1; next != columns.end();) {
+    const auto end =
+        std::find_if(next + 1, columns.end(), [](const Column& one) { return !one.joined; });
+    std::vector<Column> wider = table;
+    wider.insert(wider.end(), next, end);
+    if (table.size() > 1 && width_of(aligned(wider)) > line_width) {
+      text += aligned(table) + '\n';
+      table.resize(1);
+    } else {
+      table = std::move(wider);
+      next = end;
+    }
+  }
+  return text + aligned(table);
 }
 
 std::vector<std::string> ranges(const std::vector<std::string>& low,

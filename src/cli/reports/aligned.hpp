@@ -34,10 +34,14 @@ std::string short_duration(double seconds);
 struct Column {
   std::string header;
   std::vector<std::string> cells;
-  bool left = false;  ///< aligned on the left
+  bool left = false;    ///< aligned on the left
+  bool joined = false;  ///< stays beside the column before it
 };
 /// Lines of right-aligned columns, two blanks before each.
 std::string aligned(const std::vector<Column>&);
+/// The same in lines that fit: columns for which there is no room follow in further tables, each
+/// with the first column.
+std::string fitted(const std::vector<Column>&);
 /// "low .. high", padded so that the dots of all rows are below each other.
 std::vector<std::string> ranges(const std::vector<std::string>& low,
                                 const std::vector<std::string>& high);

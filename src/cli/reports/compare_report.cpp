@@ -79,7 +79,7 @@ std::string schemes_table(const Comparison& result) {
     columns[6].cells.emplace_back(yes_or_no(scheme.reversible));
     columns[7].cells.emplace_back(yes_or_no(symplectic(scheme)));
   }
-  return aligned(columns);
+  return fitted(columns);
 }
 
 std::string runs_table(const ComparedScheme& scheme) {
@@ -106,7 +106,7 @@ std::string runs_table(const ComparedScheme& scheme) {
     columns[6].cells.push_back(fmt::format("{}", run.force_evaluations));
     columns[7].cells.push_back(run.failed() ? "-" : short_duration(run.cpu_seconds));
   }
-  return fmt::format("\n{}\n{}", scheme.name, aligned(columns));
+  return fmt::format("\n{}\n{}", scheme.name, fitted(columns));
 }
 
 // Why it is not known whether areas are kept, as a phrase; "" where it is.

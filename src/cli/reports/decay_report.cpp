@@ -23,12 +23,12 @@ std::string formula_of(DecayLaw law, bool with_plateau, const char* variable) {
 }
 
 std::string numbers_of(const Decay& decay) {
-  std::string text = fmt::format("{} = {}", decay.law == DecayLaw::exponential ? "kappa" : "a",
+  std::string text = fmt::format("    {} = {}", decay.law == DecayLaw::exponential ? "kappa" : "a",
                                  with_error(decay.rate, decay.rate_error));
   text += fmt::format(", A = {}", with_error(decay.amplitude, decay.amplitude_error));
   if (decay.with_plateau)
     text += fmt::format(", P_infinity = {}", with_error(decay.plateau, decay.plateau_error));
-  return text;
+  return folded(text, "    ");
 }
 
 Json json_of(const Decay& decay) {
@@ -70,7 +70,7 @@ std::string decay_text(const DecayFit& fit, const char* variable) {
   if (!fit.decided) text += not_told_apart;
   for (std::size_t i = 0; i < shown; ++i) {
     const Decay& decay = fit.decays[i];
-    text += fmt::format("  {}\n    {}\n    p-value {:.2g}{}\n",
+    text += fmt::format("  {}\n{}\n    p-value {:.2g}{}\n",
                         formula_of(decay.law, decay.with_plateau, variable), numbers_of(decay),
                         decay.p_value,
                         decay.p_value < hardly ? ": the law does not describe this window" : "");
@@ -86,8 +86,8 @@ std::string decay_text(const DecayFit& fit, const char* variable) {
 std::string decay_by_hits_text(const DecayFit& fit) {
   if (fit.decays.empty()) return "";
   const Decay& decay = fit.decays.front();
-  return fmt::format("By number of hits from n = {:.4g} to {:.4g}{}\n  {}\n    {}\n", fit.from,
-                     fit.to, fit.decided ? "" : ", not decided",
+  return fmt::format("By number of hits from n = {:.4g} to {:.4g}{}\n  {}\n{}\n", fit.from, fit.to,
+                     fit.decided ? "" : ", not decided",
                      formula_of(decay.law, decay.with_plateau, "n"), numbers_of(decay));
 }
 

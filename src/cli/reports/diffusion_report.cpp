@@ -50,10 +50,10 @@ std::string moments_table(const std::vector<MomentPoint>& points, const Ensemble
     exponent.push_back(std::isfinite(p.exponent.value) ? with_error(p.exponent) : "");
   }
   return "\n" +
-         aligned({{"t", times_text(times)},
-                  {"MSD", square},
-                  {"MSD/4t", slope},
-                  {"local exponent", exponent}}) +
+         fitted({{"t", times_text(times)},
+                 {"MSD", square},
+                 {"MSD/4t", slope},
+                 {"local exponent", exponent}}) +
          rows_text(points.size(), context);
 }
 
@@ -70,7 +70,7 @@ std::string velocity_table(const std::vector<MomentPoint>& points, EnsembleConte
     green_kubo.push_back(with_error(p.green_kubo));
   }
   return "\nC(t) = <v(t).v(0)>, and Green and Kubo's D(t), half its integral from 0 to t\n" +
-         aligned({{"t", times_text(times)}, {"C(t)", correlation}, {"D(t)", green_kubo}});
+         fitted({{"t", times_text(times)}, {"C(t)", correlation}, {"D(t)", green_kubo}});
 }
 
 std::string horizon_text(const Horizon& horizon) {

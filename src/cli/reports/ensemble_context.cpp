@@ -17,11 +17,12 @@ std::string head_text(const System& system, std::uint64_t trajectories, double l
   // Particles were counted.
   const std::size_t each = system.injections.empty() ? system.particles.size() : 1;
   return heading(system) +
-         fmt::format("{}{} {}, seed {}{}{}\n", counted(trajectories / each, "trajectory"),
-                     each > 1 ? fmt::format(" of {} particles", each) : "", until(last_time),
-                     system.run.seed,
-                     context.shard.of > 1 ? ", part " + text_of(context.shard) : "",
-                     complete ? "" : "  (" + context.status + ": those that were finished)");
+         folded(fmt::format(
+             "{}{} {}, seed {}{}{}", counted(trajectories / each, "trajectory"),
+             each > 1 ? fmt::format(" of {} particles", each) : "", until(last_time),
+             system.run.seed, context.shard.of > 1 ? ", part " + text_of(context.shard) : "",
+             complete ? "" : "  (" + context.status + ": those that were finished)")) +
+         '\n';
 }
 
 std::string work_text(const System& system, std::uint64_t collisions, std::uint64_t contacts,

@@ -50,8 +50,8 @@ void add_estimate(double value, double low, double high, std::vector<std::string
   highs.push_back(rounded(high));
 }
 
-std::string survival_table(const SurvivalCounts& all, const EnsembleContext& context) {
-  const SurvivalCounts counts = at_rows(all, every_kth(all.times.size(), context.rows));
+std::vector<Column> survival_columns(const SurvivalCounts& all, std::size_t rows) {
+  const SurvivalCounts counts = at_rows(all, every_kth(all.times.size(), rows));
   const auto rates = escape_rate(counts);
   auto rate = rates.begin();  // both lists in the order of time
   std::vector<std::string> p, low, high, value, least, most;
@@ -64,13 +64,20 @@ std::string survival_table(const SurvivalCounts& all, const EnsembleContext& con
       for (auto* const none : {&value, &least, &most}) none->emplace_back();
   }
   const char* const interval = "95 % interval";
-  return "\n" +
-         aligned({{"t", times_text(counts.times)},
-                  {"p(t)", p},
-                  {interval, ranges(low, high), true},
-                  {"-dP/dt since\nthe row above", value},
-                  {interval, ranges(least, most), true}}) +
-         rows_text(all.times.size(), context);
+  return {{"t", times_text(counts.times)},
+          {"p(t)", p},
+          {interval, ranges(low, high), true, true},
+          {"-dP/dt since\nthe row above", value},
+          {interval, ranges(least, most), true, true}};
+}
+
+// Of many trajectories numbers are so long that rates follow in a table of their own. Where not all
+// times are shown, both have half as many rows: then they fit a screen.
+std::string survival_table(const SurvivalCounts& all, const EnsembleContext& context) {
+  std::vector<Column> columns = survival_columns(all, context.rows);
+  if (all.times.size() > context.rows && width_of(aligned(columns)) > line_width)
+    columns = survival_columns(all, context.rows / 2);
+  return "\n" + fitted(columns) + rows_text(all.times.size(), context);
 }
 
 std::string fates(const System& system, const SurvivalCounts& counts) {

@@ -58,9 +58,9 @@ std::string table_of(const FreePathDistribution& d, const EnsembleContext& conte
     density.push_back(with_error(bin.density));
     longer.push_back(with_error(bin.longer));
   }
-  return aligned({{"length l", times_text(lengths)},
-                  {"density in the bin from l", density},
-                  {"share of l or longer", longer}}) +
+  return fitted({{"length l", times_text(lengths)},
+                 {"density in the bin from l", density},
+                 {"share of l or longer", longer}}) +
          rows_text(d.bins.size(), context);
 }
 

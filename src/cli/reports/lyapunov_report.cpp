@@ -223,7 +223,7 @@ std::string distribution_text(const GrowthSums& sums) {
     shares.push_back(fmt::format("{:g}", share));
     ends.push_back(fmt::format("{:.4g}", bin == bins.begin() ? bin->from : std::prev(bin)->to));
   }
-  return text + aligned({{"share", shares}, {"exponent", ends}});
+  return text + fitted({{"share", shares}, {"exponent", ends}});
 }
 
 std::string regularity_text(const GrowthSums& sums, const LyapunovEstimate& e) {

@@ -111,7 +111,7 @@ std::string relax_text(const System& system, const RelaxResult& result, const st
       columns[3].cells.push_back(grouped(e.found));
     }
     if (n == 1) columns.erase(columns.begin() + 1);
-    text += "\n" + aligned(columns);
+    text += "\n" + fitted(columns);
     if (shown < count) text += fmt::format("  of {} equilibria\n", grouped(count));
     const Equilibrium& lowest = result.equilibria.front();
     text += "\nof the lowest\n" +

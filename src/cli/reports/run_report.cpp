@@ -95,12 +95,13 @@ std::string particles_text(const System& system, const SingleRunResult& result, 
   const std::size_t all = result.particles.size(), rows = verbose ? all : std::min(all, most);
   const bool forces = system.dynamics.forces && !system.dynamics.forces->empty();
   const bool trusted = !forces && result.particles.front().trust.known;
-  std::string text;
+  std::vector<Column> columns;
   for (int digits = 6; digits >= 3; --digits) {
-    std::vector<Column> columns{{"particle", {}}, {"status", {}, true}, {"collisions", {}}};
+    columns = {{"particle", {}}, {"status", {}, true}, {"collisions", {}}};
     if (system.of_discs()) columns.push_back({"contacts", {}});
     if (trusted) columns.push_back({"trusted", {}});
-    for (const char* name : {"t", "x", "y", "vx", "vy"}) columns.push_back({name, {}});
+    for (const std::string name : {"t", "x", "y", "vx", "vy"})
+      columns.push_back({name, {}, false, name.ends_with("y")});
     for (std::size_t i = 0; i < rows; ++i) {
       const RunEnd& p = result.particles[i];
       std::vector<std::string> cells{fmt::format("{}", i), status_of(p, result.interrupted),
@@ -111,9 +112,9 @@ std::string particles_text(const System& system, const SingleRunResult& result, 
         cells.push_back(fmt::format("{:.{}g}", x, digits));
       for (std::size_t c = 0; c < columns.size(); ++c) columns[c].cells.push_back(cells[c]);
     }
-    text = "\n" + aligned(columns);
-    if (width_of(text) <= line_width) break;
+    if (width_of(aligned(columns)) <= line_width) break;
   }
+  std::string text = "\n" + fitted(columns);
   if (rows < all) text += fmt::format("  and {} more; --verbose prints all\n", grouped(all - rows));
   EnergyError energy;
   for (const RunEnd& particle : result.particles) energy += particle.energy_error;

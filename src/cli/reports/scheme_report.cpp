@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
 #include <vector>
 
 #include "carom/integrators/scheme_list.hpp"
@@ -19,20 +21,23 @@ Json number_or_null(int number) { return number > 0 ? Json(number) : Json(); }
 }  // namespace
 
 std::string schemes_text() {
-  std::vector<Column> columns{{"scheme", {}, true},
-                              {"order", {}},
-                              {"forces\na step", {}},
-                              {"kind", {}, true},
-                              {"source", {}, true}};
+  std::vector<Column> columns{
+      {"scheme", {}, true}, {"order", {}}, {"forces\na step", {}}, {"kind", {}, true}};
+  std::size_t width = 0;
   for (const SchemeDescription& scheme : scheme_descriptions()) {
     const auto number = [](int n) { return n > 0 ? fmt::format("{}", n) : std::string("-"); };
     columns[0].cells.emplace_back(scheme.name);
     columns[1].cells.push_back(number(scheme.order));
     columns[2].cells.push_back(number(scheme.stages));
     columns[3].cells.emplace_back(scheme.kind);
-    columns[4].cells.emplace_back(scheme.source);
+    width = std::max(width, columns[0].cells.back().size());
   }
-  return aligned(columns);
+  std::string sources = "\nSources\n";
+  for (const SchemeDescription& scheme : scheme_descriptions())
+    sources += folded(fmt::format("  {:<{}}  {}", scheme.name, width, scheme.source),
+                      std::string(width + 4, ' ')) +
+               '\n';
+  return aligned(columns) + sources;
 }
 
 Json schemes_json() {

@@ -7,7 +7,7 @@
 
 namespace carom::cli {
 
-/// A line each.
+/// A line each, and below them where each is from.
 std::string schemes_text();
 io::Json schemes_json();
 

@@ -43,7 +43,7 @@ std::string OrbitLines::table() const {
     to.push_back(fmt::format("{:+.4f}", line.to));
   }
   columns.push_back({"v_parallel", ranges(from, to), true});
-  return aligned(columns);
+  return fitted(columns);
 }
 
 Json section_json(const System& system, const SectionResult& result, const std::string& status,

@@ -50,10 +50,10 @@ std::string spectrum_text(const System& system, const LyapunovResult& result,
   }
   std::string text = fmt::format("\nspectrum: {} exponents per unit time, in pairs i and {} - i\n",
                                  count, count + 1) +
-                     aligned({{"i", numbers},
-                              {"exponent i", values},
-                              {fmt::format("exponent {} - i", count + 1), others},
-                              {"their sum", sums}}) +
+                     fitted({{"i", numbers},
+                             {"exponent i", values},
+                             {fmt::format("exponent {} - i", count + 1), others},
+                             {"their sum", sums}}) +
                      rows_text(pairs, context);
   std::string laws;
   for (const std::string& law : zeros.laws) laws += (laws.empty() ? "" : ", ") + law;

@@ -87,7 +87,7 @@ std::string table_text(const System& system, const TableMeasure& measured,
                                  whole ? "" : point(geometry::end_point(wall.curve))};
     for (std::size_t c = 0; c < columns.size(); ++c) columns[c].cells.push_back(cells[c]);
   }
-  if (!table.walls.empty()) text += aligned(columns);
+  if (!table.walls.empty()) text += fitted(columns);
   if (const std::size_t shown = columns.front().cells.size(); shown < table.walls.size())
     text += fmt::format("  and {} more; --verbose prints all\n", table.walls.size() - shown);
   for (const Hole& hole : table.holes) {
