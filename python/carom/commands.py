@@ -66,6 +66,10 @@ def _progress(progress):
         return progress
     if progress is None:
         progress = sys.stderr.isatty()
+    if not isinstance(progress, bool):
+        raise InputError(
+            f"'progress' is {progress!r}", ("", 0, 0, "progress"), "True, False, None, or a function of (share, done)"
+        )
     if not progress:
         return None
     try:
@@ -305,8 +309,8 @@ def validate(
     scale multiplies the trajectories of every case; soak: the long runs. Ctrl-C raises
     KeyboardInterrupt, whose `result` holds the cases that were finished.
     """
-    threads = "" if threads is None else toml.bare(threads)
-    outcome, error = _shown(progress, _carom.validate, soak, toml.bare(scale), threads)
+    threads = "" if threads is None else toml.bare(threads, "threads")
+    outcome, error = _shown(progress, _carom.validate, soak, toml.bare(scale, "scale"), threads)
     result = results.Validation(outcome)
     if error is not None:
         error.result = result

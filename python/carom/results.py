@@ -114,6 +114,16 @@ class Splitting(OfSystem):
         return self._json["survival" if self.levels == "time" else "survival_hits"]
 
 
+def check_archive(path):
+    """The name of an archive, as text. Other endings are refused, as by the program."""
+    path = os.fspath(path)
+    if os.path.splitext(path)[1] not in ("", ".h5", ".hdf5", ".part"):
+        raise InputError(
+            f"'{path}' does not end as an archive", (path, 0, 0, ""), ".h5 or .hdf5; plot() draws pictures"
+        )
+    return path
+
+
 class Result(OfSystem):
     """A result that an archive can hold: it is saved, opened and pickled."""
 
@@ -123,17 +133,21 @@ class Result(OfSystem):
 
     def save(self, path, force: bool = False) -> None:
         """Writes the archive that the program writes with -o; `force` replaces one."""
+        path = check_archive(path)
         if self._archive is None:
-            self._outcome.save(str(path), force)
+            self._outcome.save(path, force)
             return
         if os.path.exists(path) and not force:
-            raise InputError(f"{path}: the output file exists already", (str(path), 0, 0, ""))
+            raise InputError(f"{path}: the output file exists already", (path, 0, 0, ""))
         archive = self._archive
         if isinstance(archive, str):
             with open(archive, "rb") as stream:
                 archive = stream.read()
-        with open(path, "wb") as stream:
-            stream.write(archive)
+        try:
+            with open(path, "wb") as stream:
+                stream.write(archive)
+        except OSError as error:
+            raise InputError(f"cannot write '{path}': {error.strerror}", (path, 0, 0, "")) from None
 
     def _stored(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -299,6 +313,8 @@ class Run(Result):
     def path(self, particle: int = 0) -> numpy.ndarray:
         """Points along the orbit of a particle, (points,): t (time), x, y (length, in the plane).
         Arcs have points between their ends. Where forces act: its samples and hits."""
+        if particle not in self.starts["particle"]:
+            raise InputError(f"there is no particle {particle!r}", ("", 0, 0, "particle"), "its index, from 0 on")
         omegas = _carom.omegas(self._outcome.system)
         omega = omegas[particle] if self.engine == "events" else 0.0
         return _carom.path(self._states(particle), omega)

@@ -8,7 +8,7 @@ import numpy
 
 from . import _carom, toml
 from .errors import InputError
-from .results import Result
+from .results import Result, check_archive
 from .system import _SECTION_OF, System
 
 
@@ -122,7 +122,7 @@ class Sweep(Result):
                 files.append(os.path.join(folder, f"{index}.h5") if hasattr(result, "save") else "")
                 if files[-1]:
                     result.save(files[-1])
-            self._outcome.save(str(path), force, files)
+            self._outcome.save(check_archive(path), force, files)
 
     def _made_of(self):
         return self._system, self._results

@@ -122,10 +122,11 @@ class System:
         return System(self._text, self._name, (*self._changes, *changes), (*self._options, *options))
 
     def _append(self, text):
-        if not self._text:
-            return System(self.to_toml() + text, self._name)._checked()
-        made = System(self._text + text, self._name, self._changes, self._options)
-        return made._checked()
+        if self._text and not any(key.split(".")[0] == "table" for key, _ in self._changes):
+            return System(self._text + text, self._name, self._changes, self._options)._checked()
+        # Changes are made after the text is read: what they have made of the table is written first.
+        written = self.to_toml().replace("\nhole = []\n", "\n")
+        return System(written + text, self._name, (), self._options)._checked()
 
     def _checked(self):
         self._loaded("table")

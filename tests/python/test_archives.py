@@ -146,3 +146,16 @@ def test_ctrl_c_stops_saving_and_leaves_no_file(tmp_path):
         timer.join()  # a fast machine was done before
     timer.join()
     assert not list(tmp_path.iterdir())
+
+
+def test_names_of_archives_are_those_of_the_program(tmp_path):
+    run = carom.run("stadium", collisions=3)
+    run.save(tmp_path / "run.hdf5")
+    opened = carom.open(tmp_path / "run.hdf5")
+    for result in (run, opened):
+        for name in ("run.png", "run.xyz"):
+            with pytest.raises(carom.InputError, match="does not end as an archive"):
+                result.save(tmp_path / name)
+        with pytest.raises(carom.InputError, match="cannot write"):
+            result.save(tmp_path / "nowhere/run.h5")
+    assert [file.name for file in tmp_path.iterdir()] == ["run.hdf5"]

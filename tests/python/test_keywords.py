@@ -137,6 +137,9 @@ def test_lists_numbers_and_text_are_the_same():
     (lambda: carom.circle(radius=object()), "'radius' cannot be <object"),
     (lambda: carom.escape("stadium", field={"B": None}), "'field' cannot be None"),
     (lambda: carom.escape(None), "None is not a system"),
+    (lambda: carom.escape("stadium", trajectories=5, progress="no"), "'progress' is 'no'"),
+    (lambda: carom.validate(scale=None), "'scale' cannot be None"),
+    (lambda: carom.run("stadium", collisions=3).path(1), "there is no particle 1"),
 ])  # fmt: skip
 def test_bad_values_are_bad_input(call, message):
     with pytest.raises(carom.InputError, match=message):

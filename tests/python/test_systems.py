@@ -62,6 +62,16 @@ def test_the_file_of_a_system_gives_the_system(tmp_path):
     assert carom.load(file).to_toml() == table.to_toml()
 
 
+def test_holes_are_cut_into_the_table_as_it_is_then():
+    shut = carom.stadium().hole("top", center=1, width="1/5", name="a").with_(engine="steps", t_max=7).closed()
+    opened = shut.hole("bottom", center=1, width=0.1, name="b").hole("top", center=1, width=0.1, name="c")
+    assert opened.holes == ["b", "c"] and shut.holes == []
+    assert carom.run(opened, integrator={"step": 0.01}, t_max=1).engine == "steps"
+    assert "t_max = 7" in opened.to_toml()
+    disc = carom.stadium().with_(table={"shape": "circle", "radius": 1})
+    assert disc.hole("circle", center=1, width=0.1).obstacle("circle", center=(0, 0), radius=0.1).holes == ["hole_1"]
+
+
 def test_errors_say_where_and_what():
     with pytest.raises(carom.InputError) as error:
         carom.escape("magnetic-square", trajectoriess=10)
