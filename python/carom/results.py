@@ -125,7 +125,7 @@ def check_archive(path):
 
 
 class Result(OfSystem):
-    """A result that an archive can hold: it is saved, opened and pickled."""
+    """A result that an archive can hold: it is saved and opened."""
 
     def __init__(self, outcome, system):
         super().__init__(outcome, system)
