@@ -172,7 +172,8 @@ TEST(TrustAgainstCertified, EscapesAreTrue) {
   const long starts = tests::cases(300, 10000);
   for (long k = 0; k < starts; ++k) {
     SingleRunOptions options;
-    options.trajectory = static_cast<std::uint64_t>(k);
+    const auto trajectory = static_cast<std::uint64_t>(k);
+    options.trajectory = trajectory;
     options.written = written;
     Observer silent;
     const RunEnd run = run_single(loaded.system, silent, options).particles.front();
@@ -183,7 +184,7 @@ TEST(TrustAgainstCertified, EscapesAreTrue) {
     }
     ++trusted;
     const World world(*loaded.system.table);
-    const State start = draw_initial_state(loaded.system, world, options.trajectory, 0);
+    const State start = draw_initial_state(loaded.system, world, trajectory, 0);
     ExactSystem exact = loaded.exact;
     exact.start = {};
     exact.start.position = {start.position.x, start.position.y};
