@@ -115,9 +115,10 @@ std::string fit_text(const DiffusionSummary& summary) {
     text += "MSD = A t^a + c has no best exponent a between 0.05 and 4";
   text += fmt::format(
       "\nslope of ln MSD against ln t: {}\n"
-      "window {:.6g} <= t <= {:.6g}, {} times\n"
-      "errors by the jackknife over groups of trajectories\n",
+      "window {:.6g} <= t <= {:.6g}, {} times\n",
       with_error(fit->local_exponent), fit->window.from, fit->window.to, fit->points);
+  if (fit->local_exponent.error > 0.0)
+    text += "errors by the jackknife over groups of trajectories\n";
   return text;
 }
 
