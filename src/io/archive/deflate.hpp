@@ -23,7 +23,8 @@ class BitWriter {
     used_ += count;
   }
   void put(Bits bits) { put(bits.bits, bits.count); }
-  /// No more than 56 bits may be put between. Eight bytes are written, the later ones again.
+  /// Stores whole bytes. At most 56 bits may be put between two of these calls. Eight bytes are
+  /// written each time; those that are not whole yet are written again.
   void spill() {
     std::uint64_t held = held_;
     if constexpr (std::endian::native == std::endian::big) held = __builtin_bswap64(held);
@@ -36,7 +37,7 @@ class BitWriter {
     put(0, (8 - used_ % 8) % 8);
     spill();
   }
-  /// Where a byte begins.
+  /// Only where a byte begins, as after fill_byte.
   void copy(const std::uint8_t* bytes, std::size_t size) {
     std::memcpy(next_, bytes, size);
     next_ += size;
@@ -58,10 +59,10 @@ class Deflate {
   void plain(std::span<const std::uint8_t> bytes);
   /// Frequent bytes in fewer bits.
   void literals(std::span<const std::uint8_t> bytes);
-  /// The same of bytes that often are the one before.
+  /// The same, with copies of bytes that are often the one before.
   void runs(std::span<const std::uint8_t> bytes);
-  /// The same of values of eight bytes of which many are the one before but for the first and the
-  /// last byte: reals whose sign or last digits change.
+  /// The same, with copies of values of eight bytes that are often the one before but for the first
+  /// and the last byte: reals whose sign or last digits change.
   void values(std::span<const std::uint8_t> bytes);
   /// `sum`: Adler-32 of all bytes. The stream is valid until the next start.
   std::span<const std::uint8_t> finish(std::uint32_t sum);

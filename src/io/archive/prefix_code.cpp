@@ -7,7 +7,7 @@ namespace carom::io::hdf5 {
 
 namespace {
 
-constexpr unsigned deepest = 32;  // leaves of more than 2^22 symbols would be needed to get there
+constexpr unsigned deepest = 32;  // or deeper: such words are too long anyway
 
 // How many leaves of Huffman's tree are how deep. `counts` are in rising order. Two queues, of
 // leaves and of nodes, each in rising order: the two least are at their fronts.
