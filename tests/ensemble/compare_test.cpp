@@ -291,6 +291,38 @@ TEST(Compare, OrbitsWithoutAnyErrorTellNoOrder) {
   EXPECT_EQ(order.reason, "its errors are those of rounding");
 }
 
+TEST(Compare, ErrorsThatGrowWithShorterStepsTellNoOrder) {
+  std::vector<ComparedRun> runs(4);
+  double step = 1.0, error = 1e-8;
+  for (ComparedRun& run : runs) {
+    run.step = step *= 0.5;
+    run.error_state = error *= 2.0;
+  }
+  const MeasuredOrder order = ensemble::measured_order(runs, {1e-12, 1e-12, 1e-12, 1e-12});
+  EXPECT_FALSE(order.slope);
+  EXPECT_EQ(order.reason, "its errors do not fall with the step");
+}
+
+// Far from where it started a position has fewer digits after the point.
+TEST(Compare, RoundingIsThatOfThePositionsOnTheWay) {
+  const System system = make_system(R"(
+[initial]
+kind = "point"
+position = [0.3, 0.2]
+velocity = [0.6, 0.8]
+[[potential]]
+kind = "linear"
+force = [0, -1]
+)");
+  const Comparison result =
+      compare(system, {.schemes = {"velocity-verlet"}, .steps = {1.0, 0.25, 0.1}, .t_max = 1000.0});
+  EXPECT_EQ(result.reference, "mclachlan-ss17 in 34 digits");
+  EXPECT_LT(result.reference_error, 1e-9);
+  const ComparedScheme& verlet = result.schemes.front();
+  EXPECT_TRUE(verlet.reversible.value_or(true));
+  EXPECT_FALSE(verlet.measured.slope);
+}
+
 // Where one orbit is all that may be computed, there is no second one to tell its error.
 TEST(Compare, AReferenceThatCostsTooMuchIsRefusedWithTheCost) {
   const System system = make_system(R"(

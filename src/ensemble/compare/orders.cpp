@@ -78,6 +78,10 @@ MeasuredOrder measured_order(const std::vector<ComparedRun>& runs,
     low = std::min(low, one);
     high = std::max(high, one);
   }
+  if (!(xy > 0.0)) {
+    order.reason = "its errors do not fall with the step";
+    return order;
+  }
   const double span = points[first].log_step - points.back().log_step;
   order.slope = MeasuredNumber{
       xy / xx, beyond_the_last * (high - low) + (points[first].noise + points.back().noise) / span};

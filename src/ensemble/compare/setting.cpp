@@ -59,6 +59,7 @@ double first_step(const Runs& runs, double size, double speed) {
 struct Growth {
   double between = 0.0;                                  ///< two times
   std::vector<double> grown;                             ///< the largest until then
+  std::vector<double> rounded;                           ///< what is rounded then, over the size
   double end = std::numeric_limits<double>::infinity();  ///< of the first particle that ends
 };
 
@@ -68,24 +69,28 @@ Growth growth_of(const Runs& runs, const Dynamics& dynamics, double between, dou
   World orbit(table, dynamics), beside(table, dynamics);
   runs.add_starts(orbit);
   add_displaced(beside, orbit, units.size);
-  Growth result{between, {}};
+  Growth result{between, {}, {}};
   double grown = 1.0;
   for (int k = 1; (k - 1) * between < until; ++k) {
     const double t = std::min(k * between, until);
     orbit.run_until(t);
     beside.run_until(t);
     runs.stop_if_asked();
+    double farthest = units.size;
     for (int i = 0; i < orbit.size(); ++i) {
       if (orbit.finished(i) && orbit.fate(i) != Fate::pinned) {
         result.end = std::min(result.end, orbit.state(i).time.value());
         continue;
       }
-      const PlaneState one = in_the_plane(table, state_of(orbit, i, t)),
+      const State state = state_of(orbit, i, t);
+      farthest = std::max(farthest, length(state.position));
+      const PlaneState one = in_the_plane(table, state),
                        other = in_the_plane(table, state_of(beside, i, t));
       grown = std::max({grown, length(one.position - other.position) / (displacement * units.size),
                         length(one.velocity - other.velocity) / (displacement * units.speed)});
     }
     result.grown.push_back(grown);
+    result.rounded.push_back(farthest / units.size);
     if (std::isfinite(result.end)) break;
   }
   return result;
@@ -109,7 +114,8 @@ void set_growth(const Growth& growth, Setting& setting) {
   for (std::size_t k = 0; k < growth.grown.size(); ++k) {
     if (k > 0 && static_cast<double>(k + 1) * growth.between > 1.0001 * setting.t) break;
     setting.growth = growth.grown[k];
-    sum += 1.0 / (growth.grown[k] * growth.grown[k]);
+    const double share = growth.rounded[k] / growth.grown[k];
+    sum += share * share;
     ++count;
   }
   setting.rounded = setting.growth * std::sqrt(sum / std::max(1, count));

@@ -11,7 +11,7 @@ struct Setting {
   double t = 0.0;
   ErrorUnits units;
   double growth = 1.0;        ///< of a small distance from the start until t
-  double rounded = 1.0;       ///< the same of distances that are made all along, root mean square
+  double rounded = 1.0;       ///< the same of roundings that are made all along, root mean square
   double longest_step = 0.0;  ///< t over a power of two; resolves the forces
   double longest_resolved = 0.0;  ///< of 2^k times the first step that does; 0: no forces
   Orbit reference;
