@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <regex>
 #include <string>
 
 #include "carom/integrators/scheme.hpp"
@@ -53,6 +54,18 @@ TEST(Comparisons, SayWhyAreasAreNotMeasured) {
   EXPECT_NE(o.out.find("\"areas_reason\": \"none of"), std::string::npos) << o.out;
   EXPECT_NE(on_one_line(text.out).find("areas not measured (none of"), std::string::npos)
       << text.out;
+}
+
+// Of a run that failed nothing is known, and of a single step not the way back.
+TEST(Comparisons, ShowNoNumbersThatAreNotKnown) {
+  const Shell shell;
+  const Outcome o = shell(
+      "$carom compare henon-heiles --schemes ruth-3 --t-max 0.1 --steps 100,0.1 --verbose --quiet");
+  ASSERT_EQ(o.status, 0) << o.err;
+  const std::regex failed("\n +100( +-){5} +[0-9]+ +-\n");
+  EXPECT_TRUE(std::regex_search(o.out, failed)) << o.out;
+  const std::regex single("\n +0\\.1( +[-.e0-9]+){3} +- +- +[0-9]+ ");
+  EXPECT_TRUE(std::regex_search(o.out, single)) << o.out;
 }
 
 // The adaptive ones, too, look for particles within a range once a step.
