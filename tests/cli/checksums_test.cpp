@@ -307,6 +307,29 @@ TEST(Checksums, DataOfOtherProgramsAreIgnored) {
   with_file(shell.folder() + "/a.h5", [](hid_t file) { EXPECT_GT(H5Aexists(file, "note"), 0); });
 }
 
+// Lists of free space hold nothing of the run, and only a writer reads them.
+TEST(Checksums, DamagedFreeSpaceIsNamedAsDamaged) {
+  const Shell shell;
+  ASSERT_EQ(shell("$carom run sinai --t-max 20 --set run.sample=1 -o kept.h5 --quiet").status, 0);
+  const std::string bytes = shell.read("kept.h5");
+  int refused = 0;
+  for (const std::string signature : {"FSHD", "FSSE"})
+    for (std::size_t at = bytes.find(signature); at != std::string::npos;
+         at = bytes.find(signature, at + 1)) {
+      std::string bad = bytes;
+      bad[at + 8] ^= 0x10;
+      std::ofstream(shell.folder() + "/a.h5", std::ios::binary) << bad;
+      const Outcome o = shell("$carom run --resume a.h5 --t-max 30 --quiet -o b.h5");
+      if (o.status != 0) {
+        expect_refused(o, "a.h5: a structure of the file is damaged (HDF5: ");
+        EXPECT_EQ(shell.files(), (std::vector<std::string>{"a.h5", "kept.h5"}));
+        ++refused;
+      }
+      shell("rm -f b.h5");
+    }
+  EXPECT_GE(refused, 2);
+}
+
 // As a user of Python computes it: the sum of a dataset's bytes, and zlib's function.
 TEST(Checksums, AreThoseOfZlib) {
   EXPECT_EQ(io::hdf5::crc32("123456789", 9), 0xcbf43926u);

@@ -16,14 +16,22 @@ namespace carom::io::hdf5 {
 
 namespace {
 
-// The reason that the operating system gave stands in the deepest entry of HDF5's error stack.
-herr_t find_reason(unsigned, const H5E_error2_t* entry, void* data) {
+struct Reasons {
+  std::string system;  ///< of the operating system, which stands deep in HDF5's error stack
+  std::string own;     ///< the deepest one
+  bool no_memory = false;
+};
+
+herr_t find_reasons(unsigned depth, const H5E_error2_t* entry, void* data) {
+  Reasons& reasons = *static_cast<Reasons*>(data);
   const std::string_view text = entry->desc ? entry->desc : "";
+  if (depth == 0) reasons.own = text;
+  reasons.no_memory = reasons.no_memory || entry->maj_num == H5E_RESOURCE;
   const std::string_view mark = "error message = '";
   const std::size_t start = text.find(mark);
   if (start != std::string_view::npos) {
     const std::size_t end = text.find('\'', start + mark.size());
-    *static_cast<std::string*>(data) = text.substr(start + mark.size(), end - start - mark.size());
+    reasons.system = text.substr(start + mark.size(), end - start - mark.size());
   }
   return 0;
 }
@@ -73,9 +81,15 @@ void silence() {
 
 void check(bool ok, const std::string& file) {
   if (ok) return;
-  std::string reason;
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_reason, &reason);
+  Reasons reasons;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_reasons, &reasons);
   H5Eclear2(H5E_DEFAULT);
+  std::string reason = reasons.system;
+  if (reason.empty() && reasons.no_memory) reason = "out of memory";
+  if (reason.empty() && !reasons.own.empty())
+    throw Damaged(Place{file, 0, 0, ""},
+                  "a structure of the file is damaged (HDF5: " + reasons.own + ")",
+                  "an archive as carom wrote it");
   if (reason.empty()) reason = errno != 0 ? std::strerror(errno) : "the disk may be full";
   throw InputError(fmt::format("cannot write '{}': {}", file, reason));
 }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "carom/base/error.hpp"
 #include "io/archive/chunk_packer.hpp"
 
 namespace carom::io::hdf5 {
@@ -45,7 +46,14 @@ void prepare();
 /// Stops HDF5 from printing errors of its own in this thread (each thread has its own setting).
 void silence();
 
+/// HDF5 met a structure of the file that it cannot read. Only a writer reads some of them, such as
+/// lists of free space.
+class Damaged : public InputError {
+ public:
+  using InputError::InputError;
+};
 /// Throws InputError "cannot write FILE: reason" where `ok` is false; the reason is the system's.
+/// Where HDF5 has one of its own, it throws Damaged.
 void check(bool ok, const std::string& file);
 /// The same for identifiers.
 Handle checked(hid_t id, Handle::Closer closer, const std::string& file);

@@ -399,11 +399,16 @@ std::unique_ptr<RunArchive> RunArchive::extend(const std::string& source, const 
     std::filesystem::remove(copy, error);
     throw InputError("cannot write '" + copy + "': " + reason);
   }
-  auto made = std::make_unique<Implementation>(ArchiveFile::open(copy, target), target, loaded);
-  made->lock = std::move(lock);
-  made->reopen(loaded, origin);
-  made->file.start_swmr();
-  return std::unique_ptr<RunArchive>(new RunArchive(std::move(made)));
+  try {
+    auto made = std::make_unique<Implementation>(ArchiveFile::open(copy, target), target, loaded);
+    made->lock = std::move(lock);
+    made->reopen(loaded, origin);
+    made->file.start_swmr();
+    return std::unique_ptr<RunArchive>(new RunArchive(std::move(made)));
+  } catch (const hdf5::Damaged& damage) {  // the copy is as the source is
+    std::filesystem::remove(copy, error);
+    throw InputError(Place{source, 0, 0, ""}, damage.problem(), damage.expected());
+  }
 }
 
 void RunArchive::start(const std::vector<SampleRow>& rows) {
