@@ -324,6 +324,21 @@ TEST(HitsIn34Digits, OnALatticeTheyAreInThePlane) {
   EXPECT_GT(farthest, 0.0);
 }
 
+// A path beyond the floor that rises nearly to it has no crossing: that the particle is outside is
+// told by its place.
+TEST(HitsIn34Digits, AParticleOutsideIsRefused) {
+  const System system = make_system(ball);
+  const Runs runs(system, 0, {});
+  PreciseMotion motion(runs, find_scheme("mclachlan-ss17"));
+  PrecisePlace place = motion.start();
+  const double v = 0.25, highest = v * v / 2.0, step = 2.0 * v;
+  place.phase.velocity[0] = {0.0, v};
+  place.phase.position[0] = {1.0, -highest - 1e-4};
+  EXPECT_FALSE(motion.follow(place, step * parts, 1, {}));
+  place.phase.position[0] = {1.0, 3.0};
+  EXPECT_TRUE(motion.follow(place, step * parts / 16.0, 1, {}));
+}
+
 // Other hits than those of the reference in doubles are no orbit of the same system.
 TEST(HitsIn34Digits, OtherHitsThanExpectedAreRefused) {
   const System system = make_system(ball);
