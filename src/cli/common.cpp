@@ -225,16 +225,16 @@ Json decisions_json(const DecisionCounts& decisions) {
 }
 
 std::string decisions_text(const DecisionCounts& decisions) {
-  return fmt::format("decisions beyond double precision: {:.2g} %", 100.0 * exact_share(decisions));
+  return fmt::format("decisions beyond double precision: {} %", in_percent(exact_share(decisions)));
 }
 
 std::string lanes_text(const std::string& none, std::optional<InstructionSet> lanes,
                        const LaneEffort& effort) {
-  if (!none.empty()) return fmt::format("lanes: none: {}\n", none);
+  if (!none.empty()) return folded("lanes: none: " + none) + '\n';
   const char* const set = name_of(lanes.value_or(InstructionSet::baseline));
   if (effort.steps == 0) return fmt::format("lanes: {}\n", set);
-  return fmt::format("lanes: {}, {:.1f} % busy, {:.2g} % of events left to the scalar engine\n",
-                     set, 100.0 * effort.busy(), 100.0 * effort.left());
+  return fmt::format("lanes: {}, {:.1f} % busy, {} % of events left to the scalar engine\n", set,
+                     100.0 * effort.busy(), in_percent(effort.left()));
 }
 
 std::size_t rows_of(const Options& options) {

@@ -47,6 +47,20 @@ TEST(Digits, AreThoseThatTheErrorAllows) {
   EXPECT_EQ(cli::with_error(0.142640387289, 3.04e-10), "0.1426403873 +- 3.0e-10");
 }
 
+TEST(Digits, OfPercentagesAreThosePeopleWrite) {
+  for (const auto& [share, text] : {std::pair{1.0, "100"},
+                                    {0.9996, "100"},
+                                    {0.994, "99"},
+                                    {-1.234, "-123"},
+                                    {0.12, "12"},
+                                    {0.0512, "5.1"},
+                                    {0.00031, "0.031"},
+                                    {0.0, "0"}})
+    EXPECT_EQ(cli::in_percent(share), text);
+  EXPECT_EQ(cli::in_percent(0.97, 1), "97");
+  EXPECT_EQ(cli::in_percent(0.052, 1), "5");
+}
+
 TEST(Digits, TellTimesApart) {
   EXPECT_EQ(cli::times_text({0.1, 1e6}), (std::vector<std::string>{"0.1", "1e+06"}));
   EXPECT_EQ(cli::times_text({1234567.1, 1234567.2}),

@@ -121,12 +121,13 @@ std::vector<std::string> warnings_of(const SplittingResult& result) {
   const Mean cost = cost_of_kicks(result, result.at.size() - 1);
   if (is_certain(cost, repetitions))
     lines.push_back(fmt::format(
-        "kicked copies do not stay as long as others: by {} = {:.6g} p is off by {:.2g}({:.1g}) % "
+        "kicked copies do not stay as long as others: by {} = {:.6g} p is off by {}({}) % "
         "for that, and by as much "
         "again for what is not seen. The intervals hold it; smaller kicks (--kick {:.3g}) or "
         "independent trajectories have "
         "less of it",
-        variable, result.at.back(), 100.0 * cost.value, 100.0 * cost.error, result.plan.kick / 16));
+        variable, result.at.back(), in_percent(cost.value), in_percent(cost.error, 1),
+        result.plan.kick / 16));
   return lines;
 }
 

@@ -55,6 +55,11 @@ std::string with_error(double value, double error) {
   return rounded(value) + " +- " + (error < small ? fmt::format("{:.1e}", error) : rounded(error));
 }
 
+std::string in_percent(double share, int digits) {
+  const std::string text = fmt::format("{:.{}g}", 100.0 * share, digits);
+  return text.find("e+") == std::string::npos ? text : fmt::format("{:.0f}", 100.0 * share);
+}
+
 std::vector<std::string> times_text(const std::vector<double>& times) {
   std::vector<std::string> texts;
   for (int digits = 6; digits <= 17; ++digits) {

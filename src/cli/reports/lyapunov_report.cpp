@@ -71,9 +71,8 @@ void add_notes_of(const RepellerExponent& r, std::vector<std::string>& notes) {
   if (r.kicks_cost())
     notes.push_back(
         fmt::format("kicked copies do not stay as long as others: the share that is left is off by "
-                    "{:.2g}({:.1g}"
-                    ") %, and the exponent by an unknown part of that",
-                    100.0 * r.kick_cost.value, 100.0 * r.kick_cost.error));
+                    "{}({}) %, and the exponent by an unknown part of that",
+                    in_percent(r.kick_cost.value), in_percent(r.kick_cost.error, 1)));
   if (r.for_ever > 0.0)
     notes.push_back(
         fmt::format("a share {:.2g} of the starts can never leave: it is not among the populations",
