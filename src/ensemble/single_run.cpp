@@ -2,118 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 
 #include "base/interrupt.hpp"
 #include "carom/base/error.hpp"
-#include "carom/base/twofold.hpp"
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/stopwatch.hpp"
 #include "carom/events/world.hpp"
+#include "ensemble/free_energies.hpp"
 #include "motion/free_motion.hpp"
 
 namespace carom {
 
 namespace {
-
-// What is seen of the energies of particles that nothing acts on between hits and contacts.
-class FreeEnergies {
- public:
-  /// `shared`: contacts pass energy on.
-  FreeEnergies(const std::vector<Particle>& particles, bool shared)
-      : particles_(particles),
-        shared_(shared),
-        seen_(particles.size()),
-        squares_(particles.size()),
-        changes_(particles.size()) {}
-
-  void begin(int particle, const EnergyBalance& before, const State& state) {
-    EnergyBalance& seen = seen_[at(particle)];
-    const double kinetic = kinetic_energy(particle, state.velocity);
-    if (shared_ && begun_) {
-      sum_ += kinetic;
-    } else {
-      seen = before;
-      changes_[at(particle)] = before.change;
-      sum_ = kinetic;
-      goes_on_ = before.kinetic > 0.0;
-    }
-    begun_ = true;
-    // A part that goes on begins where an undisturbed run has no beginning: its energy there is
-    // that of before, but rounded anew.
-    if (!goes_on_) seen.kinetic = larger(seen.kinetic, sum_);
-  }
-  /// `particle`: its number in the system.
-  void hit(int particle, const HitEvent& event) {
-    if (shared_) return pass({{particle, event.before, event.after}});
-    Squares& squares = squares_[static_cast<std::size_t>(particle)];
-    const double last = dot(event.after, event.after);
-    squares.last = last;
-    // Nearly every hit: the change is between those that were seen. A square that is no number is
-    // not.
-    if (squares.least <= last && last <= squares.most) return;
-    squares.least = std::min(squares.least, last);
-    squares.most = std::max(squares.most, last);
-    see(particle, change_of_speed(particle, last));
-  }
-  void contact(const ContactEvent& event) {
-    pass({{event.first, event.first_before, event.first_after},
-          {event.second, event.second_before, event.second_after}});
-  }
-  EnergyBalance of(int particle) const {
-    EnergyBalance seen = seen_[at(particle)];
-    const double last = squares_[at(particle)].last;
-    if (last != no_hit) seen.change = change_of_speed(particle, last);
-    return seen;
-  }
-
- private:
-  static constexpr double no_hit = -1.0;
-  /// Of the speed after hits.
-  struct Squares {
-    double least = std::numeric_limits<double>::infinity();
-    double most = 0.0;
-    double last = no_hit;
-  };
-  struct Change {
-    int particle;
-    geometry::Vector before, after;
-  };
-  /// Differences are added without rounding, so that nothing but the energies' own roundings is
-  /// left of them.
-  void pass(std::initializer_list<Change> all) {
-    for (const Change& one : all)
-      changes_[0] = changes_[0] + Twofold::sum(kinetic_energy(one.particle, one.after),
-                                               -kinetic_energy(one.particle, one.before));
-    see(0, changes_[0].value());
-  }
-  void see(int particle, double change) {
-    EnergyBalance& seen = seen_[at(particle)];
-    seen.change = change;
-    seen.largest = larger(seen.largest, std::fabs(change));
-  }
-  /// Of a particle that shares its energy with none.
-  double change_of_speed(int particle, double square) const {
-    const Particle& p = particles_[static_cast<std::size_t>(particle)];
-    return 0.5 * p.mass * square - 0.5 * p.mass * (p.speed * p.speed);
-  }
-  std::size_t at(int particle) const { return shared_ ? 0 : static_cast<std::size_t>(particle); }
-  double kinetic_energy(int particle, const geometry::Vector& v) const {
-    return 0.5 * particles_[static_cast<std::size_t>(particle)].mass * dot(v, v);
-  }
-
-  const std::vector<Particle>& particles_;
-  const bool shared_;
-  bool begun_ = false, goes_on_ = false;
-  double sum_ = 0.0;
-  std::vector<EnergyBalance> seen_;
-  std::vector<Squares> squares_;
-  std::vector<Twofold> changes_;
-};
 
 // Passes events on under the numbers of the system's particles: those that ended in an earlier part
 // of the run are no longer in the world.
@@ -165,14 +68,14 @@ class Renumbering : public Observer {
   bool interrupted() const { return interrupted_; }
   const std::optional<EndEvent>& end_of(std::size_t particle) const { return ends_[particle]; }
   void estimate(TrustRecorder* trust) { trust_ = trust; }
-  void watch(FreeEnergies* energies) { energies_ = energies; }
+  void watch(ensemble::FreeEnergies* energies) { energies_ = energies; }
   std::uint64_t contacts_of(std::size_t particle) const { return contacts_[particle]; }
 
  private:
   int number(int particle) const { return numbers_[static_cast<std::size_t>(particle)]; }
   Observer& observer_;
   TrustRecorder* trust_ = nullptr;  ///< by the numbers of the world
-  FreeEnergies* energies_ = nullptr;
+  ensemble::FreeEnergies* energies_ = nullptr;
   bool interrupted_ = false;
   const std::vector<int>& numbers_;
   std::vector<Time> entries_;  ///< when each particle entered
@@ -487,7 +390,7 @@ class SingleRun {
   std::vector<Particle> particles_;
   std::optional<Renumbering> passed_on_;
   std::optional<TrustRecorder> trust_;
-  std::optional<FreeEnergies> free_;
+  std::optional<ensemble::FreeEnergies> free_;
   std::vector<Energy> at_start_;
 };
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "carom/analysis/interval.hpp"
 #include "carom/ensemble/engine.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
