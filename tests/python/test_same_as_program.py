@@ -94,6 +94,15 @@ def test_hits_are_those_of_the_archive(program, tmp_path):
     assert numpy.array_equal(run.hits, whole.hits[:20])
 
 
+def test_a_run_that_was_opened_and_saved_knows_its_start(program, tmp_path):
+    carom.run("soft-lorentz", trajectory=3, t_max=2).save(tmp_path / "run.h5")
+    carom.open(tmp_path / "run.h5").save(tmp_path / "again.h5")
+    more = program("run", "--resume", tmp_path / "again.h5", "--t-max", 4)
+    whole = carom.run("soft-lorentz", trajectory=3, t_max=4)
+    assert more["x"] == whole.x
+    assert more["state_error"]["position"] == whole.state_error.position
+
+
 @pytest.mark.parametrize("compute", [carom.escape, carom.diffusion, carom.lyapunov])
 def test_an_archive_holds_the_same_result(program, tmp_path, compute):
     result = compute("lorentz-triangular", trajectories=500, t_max=10)
