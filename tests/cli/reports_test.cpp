@@ -105,6 +105,8 @@ TEST(Lines, FitATerminal) {
       "schemes",
       "diffusion stadium --trajectories 40 --t-max 3 --verbose",
       "diffusion magnetic-square --trajectories 40 --t-max 3",
+      "diffusion circle --trajectories 500 --t-max 50",
+      "lyapunov circle --closed --trajectories 100 --t-max 100",
       "escape stadium --trajectories 3e6 --t-max 5 --verbose",
       "run stadium --closed --t-max 30 --set particles.count=300 --verbose",
       "run stadium --closed --t-max 1e5 --set particles.count=3",

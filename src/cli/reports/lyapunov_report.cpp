@@ -66,8 +66,8 @@ void add_notes_of(const RepellerExponent& r, std::vector<std::string>& notes) {
     notes.push_back(fmt::format(
         "populations that are kept alive have no exponent yet: {} in the first half of the window "
         "and {} in the second. The orbits that never leave are regular, or take longer runs",
-        cli::with_error(r.early.limit.value, r.early.limit.error),
-        cli::with_error(r.late.limit.value, r.late.limit.error)));
+        with_error(r.early.limit.value, r.early.limit.error),
+        with_error(r.late.limit.value, r.late.limit.error)));
   if (r.kicks_cost())
     notes.push_back(
         fmt::format("kicked copies do not stay as long as others: the share that is left is off by "
@@ -110,12 +110,13 @@ Json repeller_json(const RepellerExponent& r) {
 
 std::string repeller_text(const RepellerExponent& r) {
   const Estimate per_time = r.estimate();
-  std::string text = fmt::format(
-      "\nlambda = {} per unit time, of the repeller; the spectrum is lambda, 0, 0, "
-      "-lambda\n         {} per hit\n",
-      cli::with_error(per_time.value, per_time.error),
-      cli::with_error(r.per_hit.limit.value,
-                      std::hypot(r.per_hit.limit.error, r.per_hit.extrapolation)));
+  const std::string exponent = fmt::format(
+      "lambda = {} per unit time, of the repeller; the spectrum is lambda, 0, 0, -lambda",
+      with_error(per_time.value, per_time.error));
+  const std::string text =
+      fmt::format("\n{}\n         {} per hit\n", folded(exponent, "    "),
+                  with_error(r.per_hit.limit.value,
+                             std::hypot(r.per_hit.limit.error, r.per_hit.extrapolation)));
   return text +
          folded(fmt::format(
              "The repeller are the orbits that never leave. {} populations of {} "
@@ -183,11 +184,12 @@ Json regularity_json(const GrowthSums& sums) {
 
 std::string exponents_text(const System& system, const GrowthSums& sums,
                            const LyapunovEstimate& e) {
-  std::string text = fmt::format(
-      "\nlambda = {} per unit time{}\n", cli::with_error(e.per_time.value, e.per_time.error),
-      together(system) ? ", the largest" : "; the spectrum is lambda, 0, 0, -lambda");
+  const std::string exponent =
+      fmt::format("lambda = {} per unit time{}", with_error(e.per_time.value, e.per_time.error),
+                  together(system) ? ", the largest" : "; the spectrum is lambda, 0, 0, -lambda");
+  std::string text = '\n' + folded(exponent, "    ") + '\n';
   if (std::isfinite(e.per_hit.value))
-    text += fmt::format("         {} per hit\n", cli::with_error(e.per_hit.value, e.per_hit.error));
+    text += fmt::format("         {} per hit\n", with_error(e.per_hit.value, e.per_hit.error));
   text += fmt::format("growth of deviations in {:.6g} <= t <= {:.6g}\n", sums.window().from,
                       sums.window().to);
   if (!why_no_error(sums, e).empty()) {
@@ -227,8 +229,8 @@ std::string distribution_text(const GrowthSums& sums) {
 
 std::string regularity_text(const GrowthSums& sums, const LyapunovEstimate& e) {
   const GrowthSums::Totals& t = sums.totals();
-  std::string text = fmt::format("\nchaotic share {}\n",
-                                 cli::with_error(e.chaotic_share.value, e.chaotic_share.error));
+  std::string text =
+      fmt::format("\nchaotic share {}\n", with_error(e.chaotic_share.value, e.chaotic_share.error));
   std::string orbits = fmt::format("{} {} chaotic, {} regular, {} undecided",
                                    counted(t.chaotic, "orbit"), t.chaotic == 1 ? "is" : "are",
                                    grouped(t.regular), grouped(t.orbits - t.chaotic - t.regular));
@@ -237,7 +239,7 @@ std::string regularity_text(const GrowthSums& sums, const LyapunovEstimate& e) {
   text += folded(orbits) + '\n';
   if (t.chaotic > 1 && t.chaotic < t.orbits)
     text += fmt::format("lambda of the chaotic ones = {}\n",
-                        cli::with_error(e.chaotic.value, e.chaotic.error));
+                        with_error(e.chaotic.value, e.chaotic.error));
   return text;
 }
 
