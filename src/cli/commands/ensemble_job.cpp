@@ -97,8 +97,7 @@ LoadedSystem load_ensemble(const Options& options) {
   LoadedSystem loaded = load(options, overrides);
   // Listed starts that trajectories repeat give the same orbits again, as if their spread were 0:
   // for a mean as many trajectories as starts are listed.
-  if (options.command != "escape" && !options.of_sweep &&
-      !repeated_starts(loaded.system).empty()) {
+  if (options.command != "escape" && !options.of_sweep && !repeated_starts(loaded.system).empty()) {
     std::erase_if(overrides.set, [](const auto& one) { return one.first == "run.trajectories"; });
     overrides.trajectories = std::to_string(listed_trajectories(loaded.system));
     loaded = load(options, overrides);
