@@ -12,7 +12,7 @@ import numpy
 from . import _carom, records, results, toml
 from .errors import InputError
 from .sweep import Sweep, Swept
-from .system import System, is_of_a_system, load, system
+from .system import System, load, system
 
 
 def _as_system(thing):
@@ -98,21 +98,16 @@ def _compute(kind, function, thing, command, keywords, progress, *arguments):
     outcome, error = _shown(progress, function, loaded, *arguments)
     if error is None and hasattr(outcome, "check"):
         outcome.check()  # as the program, which ends with status 1
-    result = kind(outcome, of.with_(**_kept(keywords)))
+    result = kind(outcome, of._keeping(keywords))
     if error is not None:
         error.result = result
         raise error
     return result
 
 
-def _kept(keywords):
-    return {key: value for key, value in keywords.items() if is_of_a_system(key)}
-
-
 def _sweep(kind, function, of, command, keywords, progress, *arguments):
     keywords = dict(keywords)
     swept = Swept(of, command, keywords, keywords.pop("sweep"))
-    kept = _kept(keywords)
     shown = _progress(progress)
     results_, error = [], None
     try:
@@ -121,13 +116,13 @@ def _sweep(kind, function, of, command, keywords, progress, *arguments):
             if shown:
                 part = lambda share, done, i=i: shown((i + share) / len(swept.systems), done)  # noqa: E731
             outcome, error = function(loaded, *arguments, progress=part)
-            results_.append(kind(outcome, system_.with_(**kept)))
+            results_.append(kind(outcome, system_))
             if error is not None:
                 break
     finally:
         if hasattr(shown, "close"):
             shown.close()
-    result = Sweep(swept.outcome(results_), of.with_(**kept), results_)
+    result = Sweep(swept.outcome(results_), swept.system, results_)
     if error is not None:
         error.result = result
         raise error
@@ -338,7 +333,9 @@ def open(path) -> results.Result:  # noqa: A001: the name that users expect
     made, outcome = opened(path)
     of = outcome.system
     toml_, name = of if isinstance(of, tuple) else (of.toml, of.name)
-    result = made(outcome, System(toml_, name))
+    trajectory = getattr(outcome, "trajectory", None)
+    options = [] if trajectory is None else [("trajectory", str(trajectory))]
+    result = made(outcome, System(toml_, name, (), options))
     result._archive = path
     return result
 

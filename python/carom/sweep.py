@@ -47,12 +47,20 @@ class Swept:
         changes = [one for one in of._changes if one[0] not in texts]
         options = [one for one in of._options if f"{_SECTION_OF.get(one[0])}.{one[0]}" not in texts]
         of = System(of._text, of._name, changes, options)
-        self.plan = _carom.plan_sweep(*of._asked(command, **keywords), list(texts.values()))
+        text, name, _, changes, options = of._asked(command, **keywords)
+        self.plan = _carom.plan_sweep(text, name, command, changes, options, list(texts.values()))
+        self.system = of._keeping(keywords)
         names = [key for key, _ in self.plan.keys]
         self.systems = []
         for values in itertools.product(*(values for _, values in self.plan.keys)):
-            made = System(of._text, of._name, (*of._changes, *zip(names, values)), of._options)
-            self.systems.append((made, made._loaded(command, **keywords)))
+            swept = list(zip(names, values))
+            kept = (*self.system._changes, *swept)
+            self.systems.append(
+                (
+                    System(self.system._text, self.system._name, kept, self.system._options),
+                    _carom.load(text, name, command, [*changes, *swept], options),
+                )
+            )
 
     def outcome(self, results):
         reports = [(r._outcome.json(), "\n".join((*r.doubts, "")) if r.doubts else "") for r in results]

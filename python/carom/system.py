@@ -77,6 +77,11 @@ def _typed(key, given):
 def _changes(keywords, command=None):
     """Keywords as what --set and the options of the program say: two lists of (name, text)."""
     changes, options = [], []
+    beside = [key for key in ("position", "velocity") if keywords.get(key) is not None]
+    if keywords.get("initial") is not None and beside:
+        raise InputError(
+            f"'initial' and '{beside[0]}' are both given", ("", 0, 0, beside[0]), "one of the two"
+        )
     for key, given in keywords.items():
         _check(key, command)
         if given is None:
@@ -119,7 +124,21 @@ class System:
     def with_(self, **keywords) -> "System":
         """The same system with other values: `system.with_(B=0.5, t_max=100)`."""
         changes, options = _changes(keywords)
-        return System(self._text, self._name, (*self._changes, *changes), (*self._options, *options))
+        held_changes, held = self._held_beside(keywords)
+        return System(self._text, self._name, (*held_changes, *changes), (*held, *options))
+
+    def _keeping(self, keywords):
+        """The same system with those keywords of a command that a system holds."""
+        return self.with_(**{key: value for key, value in keywords.items() if is_of_a_system(key)})
+
+    def _held_beside(self, keywords):
+        """What stays of what the system holds: `initial` is a start as a whole, and takes its place."""
+        if keywords.get("initial") is None:
+            return self._changes, self._options
+        return (
+            [one for one in self._changes if one[0].split(".")[0] != "initial"],
+            [one for one in self._options if one[0] not in ("position", "velocity")],
+        )
 
     def _append(self, text):
         if self._text and not any(key.split(".")[0] == "table" for key, _ in self._changes):
@@ -161,8 +180,9 @@ class System:
         """What a command is asked for, as the compiled module takes it. Keywords must be the command's
         own; what the system holds is used where it means something."""
         changes, options = _changes(keywords, command)
-        held_changes, held = list(self._changes), []
-        for key, text in self._options:
+        all_changes, all_options = self._held_beside(keywords)
+        held_changes, held = list(all_changes), []
+        for key, text in all_options:
             if key in _OPTIONS[command] or _SECTION_OF.get(key) == "run" or key in ("position", "velocity"):
                 held.append((key, text))
             elif key in _SECTION_OF:

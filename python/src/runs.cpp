@@ -164,6 +164,8 @@ RunOutcome open_run(const std::string& file) {
   system.run.t_max = end;
   RunOutcome outcome;
   outcome.result = run_single(system, none, how);
+  if (system.dynamics.forces && !system.dynamics.forces->empty())
+    outcome.result.no_state_error = "archives do not hold it";
   outcome.starts = read_starts(file);
   if (outcome.starts.empty()) outcome.starts = drawn_starts(system);
   outcome.status = stored.status;
@@ -245,6 +247,7 @@ void add_runs(py::module_& module) {
   py::class_<RunOutcome>(module, "RunOutcome")
       .def_property_readonly("system",
                              [](const RunOutcome& self) { return system_of(self.system); })
+      .def_property_readonly("trajectory", [](const RunOutcome& self) { return self.trajectory; })
       .def("json",
            [](const RunOutcome& self) {
              return cli::run_json(self.system->system(), self.result, self.status, "").text();

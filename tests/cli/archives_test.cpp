@@ -110,6 +110,19 @@ TEST(RunArchive, GoesOnAsIfNeverStopped) {
   EXPECT_NE(back.err.find("--t-max: "), std::string::npos) << back.err;
 }
 
+// Each particle is stopped at its own third hit. Flown on from there they would act on each other
+// at times that are not the same.
+TEST(RunArchive, DoesNotReviveParticlesThatStoppedAtOtherTimes) {
+  const Shell shell;
+  const std::string pair = "$carom run stadium --closed --set particles.count=2 --collisions 3 ";
+  const std::string acting =
+      "--set 'interaction={kind=\"coulomb\",strength=0.3}' --set integrator.step=0.01 ";
+  EXPECT_EQ(shell(pair + acting + "-o a.h5").status, 0);
+  expect_refused(shell("$carom run --resume a.h5 --collisions 8"), "command line: --collisions: ");
+  EXPECT_EQ(shell("$carom run --resume a.h5").status, 0);
+  EXPECT_EQ(shell(pair + "--force -o a.h5 && $carom run --resume a.h5 --collisions 8").status, 0);
+}
+
 // Afterwards the archive is that of an uninterrupted run: it is of one system.
 TEST(RunArchive, GoesOnWithNothingButTheSameRun) {
   const Shell shell;

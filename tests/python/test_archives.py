@@ -135,6 +135,25 @@ def test_a_run_is_opened_with_its_start(tmp_path, program):
     assert numpy.array_equal(opened.starts, made.starts)
     assert not numpy.array_equal(carom.run("stadium", collisions=5).starts, made.starts)
     assert numpy.array_equal(opened.path(), made.path())
+    assert numpy.array_equal(carom.run(opened.system).starts, made.starts)
+
+
+def test_an_opened_result_says_what_its_archive_does_not_hold(tmp_path):
+    carom.run("henon-heiles", t_max=5).save(tmp_path / "run.h5")
+    opened = carom.open(tmp_path / "run.h5")
+    assert opened.state_error is None and "archive" in opened.state_error_reason
+
+
+def test_a_section_keeps_its_energy_error(tmp_path):
+    made = carom.section(
+        "henon-heiles", on="x=0", points=20, orbits=2, t_max=200,
+        integrator={"step": 0.9, "scheme": "velocity-verlet"},
+    )  # fmt: skip
+    made.save(tmp_path / "section.h5")
+    opened = carom.open(tmp_path / "section.h5")
+    assert made.doubts and opened.doubts == made.doubts
+    for key in ("energy_error", "steps", "force_evaluations"):
+        assert getattr(opened, key) == getattr(made, key)
 
 
 def test_ctrl_c_stops_saving_and_leaves_no_file(tmp_path):

@@ -191,3 +191,30 @@ def test_an_archive_of_a_sweep_keeps_its_options(program, tmp_path):
             return json.loads(archive["sweep/plan"][()])["options"]
 
     assert options(made) == options(printed) and len(options(made)) >= 2
+
+
+def _without_title(system):
+    return system.to_toml().split("\n", 1)[1]
+
+
+def test_a_sweep_takes_the_place_of_what_its_call_gives():
+    call = {"t_max": 5, "integrator": {"scheme": "velocity-verlet", "step": 0.01}}
+    swept = carom.run("henon-heiles", sweep={"integrator.step": [0.1, 0.5]}, **call)
+    for result, step in zip(swept.results, (0.1, 0.5)):
+        call["integrator"]["step"] = step
+        alone = carom.run("henon-heiles", **call)
+        assert (result.x, result.energy_error) == (alone.x, alone.energy_error)
+        assert _without_title(result.system) == _without_title(alone.system)
+
+
+def test_a_start_takes_the_place_of_the_one_before():
+    closed = carom.stadium(half_length=1, radius=1)
+    drawn = carom.run(closed, t_max=1).x
+    held = closed.with_(position=(0, 0), velocity=(1, 0))
+    assert carom.run(held, t_max=1).x == 1
+    assert carom.run(held, initial="uniform", t_max=1).x == drawn
+    again = held.with_(initial={"kind": "uniform"})
+    assert carom.run(again, t_max=1).x == drawn
+    assert carom.run(again, position=(0, 0), velocity=(1, 0), t_max=1).x == 1
+    with pytest.raises(carom.InputError, match="'initial' and 'position' are both given"):
+        carom.run(closed, initial="uniform", position=(0, 0), t_max=1)

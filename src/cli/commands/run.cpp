@@ -76,6 +76,18 @@ void refuse_going_back(const System& system, const StoredRun& stored) {
   }
 }
 
+// A limit on hits stops each particle at a time of its own, and those that go on feel its force no
+// more. Flown on from there they would meet at times that are not the same.
+void refuse_other_times(const System& system, const StoredRun& stored) {
+  if (!act_on_each_other(system)) return;
+  for (const ParticleProgress& p : stored.particles)
+    if (p.fate == Fate::capped && (system.run.collisions == 0 || p.hits < system.run.collisions))
+      throw InputError(Place{"command line", 0, 0, "--collisions"},
+                       "particles that act on each other were stopped by the limit on collisions, "
+                       "each at a time of its own",
+                       "a new run with more --collisions");
+}
+
 // Afterwards the archive is that of an uninterrupted run, so only how far it goes, what is sampled
 // and how much energy may change are open.
 void refuse_another_run(const Options& options, const LoadedSystem& loaded,
@@ -168,6 +180,7 @@ int run(const Options& options) {
     how.steps = stored.steps;
     how.trajectory = stored.trajectory;
     refuse_going_back(loaded.system, stored);
+    refuse_other_times(loaded.system, stored);
     say_if_ended(stored);
     archive = RunArchive::extend(options.resume, output, loaded,
                                  provenance_of(options, loaded.system, 1), options.force, lock);

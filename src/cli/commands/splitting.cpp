@@ -195,11 +195,12 @@ std::string splitting_text(const System& system, const SplittingResult& result, 
                   {"extrapolation", p_table.extrapolation},
                   {"as of trajectories", equivalent}});
   if (std::isfinite(extinction))
-    text += fmt::format(
-        "{:>12.6g}  {} by then: how rare survival is they do not say.\n"
-        "              More trajectories (--population), or levels closer together, go "
-        "further.\n",
-        extinction, all_died_out);
+    text +=
+        folded(fmt::format("{:>12.6g}  {} by then: how rare survival is they do not say. More "
+                           "trajectories (--population), or levels closer together, go further.",
+                           extinction, all_died_out),
+               std::string(14, ' ')) +
+        '\n';
   const std::vector<SplitRate> rates = escape_rate(result);
   for (const std::size_t row : every_kth(rates.size(), most))
     if (rates[row].from < extinction) rate_table.add(rates[row].t, rates[row].value);

@@ -100,8 +100,10 @@ std::string fit_text(const DiffusionSummary& summary) {
                                summary.no_D)) +
             '\n';
   if (fit && summary.no_D.empty())
-    text += fmt::format("D = {}   from MSD = 4 D t + c, c = {}\n", with_error(fit->D),
-                        with_error(fit->offset));
+    text += folded(fmt::format("D = {}   from MSD = 4 D t + c, c = {}", with_error(fit->D),
+                               with_error(fit->offset)),
+                   "    ") +
+            '\n';
   if (!summary.note.empty()) text += folded("    " + summary.note, "    ") + '\n';
   if (summary.horizon.machta_zwanzig)
     text += fmt::format("    {:.6g} by Machta and Zwanzig, for narrow gaps\n",
@@ -147,7 +149,7 @@ DiffusionSummary summary_of(const System& system, const DiffusionResult& result)
     // Few times leave no room for the offset c: what grows otherwise shows in the plain slope, too.
     const bool enough = std::isfinite(summary.fit->exponent.value);
     const Estimate& a = enough ? summary.fit->exponent : summary.fit->local_exponent;
-    if (std::abs(a.value - 1) > 0.05 && std::abs(a.value - 1) > 5 * a.error)
+    if (std::abs(a.value - 1) > 0.05 && !(std::abs(a.value - 1) <= 5 * a.error))
       add(summary.note, "the MSD does not grow as t in the window: D depends on it");
   }
   // A cap first ends the particles that hit most often.

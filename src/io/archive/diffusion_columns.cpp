@@ -97,7 +97,8 @@ void write_counts(const ArchiveFile& file, const DiffusionResult& result, const 
   const auto contacts = system.of_discs() ? std::optional(result.contacts) : std::nullopt;
   write_ends(ends, result, {result.trajectories, result.collisions, result.digest, contacts},
              file.name());
-  if (is_integrated(system)) write_integration(ends.get(), result, file.name());
+  if (is_integrated(system))
+    write_integration(ends.get(), result.steps, result.energy_error, file.name());
   hdf5::write_number(ends.get(), energy_change, result.energy_change,
                      {"energy", "With forces: the largest change of a trajectory's energy"},
                      file.name());
@@ -129,7 +130,7 @@ void read_counts(hid_t file, const std::string& name, DiffusionResult& result) {
   result.collisions = numbers.collisions;
   result.contacts = numbers.contacts.value_or(0);
   result.digest = numbers.digest;
-  read_integration(ends.get(), name, result);
+  read_integration(ends.get(), name, result.steps, result.energy_error);
   result.energy_change =
       read_number<double>(ends.get(), energy_change, "/fates/energy_change", name);
 }

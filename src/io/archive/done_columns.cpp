@@ -72,35 +72,33 @@ struct RealNumber {
   double& value;
   Description description;
 };
-std::vector<RealNumber> reals_of(EnsembleResult& result) {
+std::vector<RealNumber> reals_of(StepCounts& steps, EnergyError& energy) {
   return {
-      {first_unresolved,
-       result.steps.first_unresolved,
-       {"time", "When the earliest of these began"}},
+      {first_unresolved, steps.first_unresolved, {"time", "When the earliest of these began"}},
       {"energy_error_end",
-       result.energy_error.end,
+       energy.end,
        {"1", "Largest change of an energy until the end, relative to the largest kinetic energy"}},
       {"energy_error_largest",
-       result.energy_error.largest,
+       energy.largest,
        {"1", "Largest change of an energy that was seen, likewise"}}};
 }
 
 }  // namespace
 
-void write_integration(hid_t fates, const EnsembleResult& result, const std::string& name) {
+void write_integration(hid_t fates, StepCounts steps, EnergyError energy, const std::string& name) {
   for (const StepNumber& number : step_numbers)
-    hdf5::write_number(fates, number.name, result.steps.*number.value, {"1", number.text}, name);
-  EnsembleResult copy = result;
-  for (const RealNumber& number : reals_of(copy))
+    hdf5::write_number(fates, number.name, steps.*number.value, {"1", number.text}, name);
+  for (const RealNumber& number : reals_of(steps, energy))
     hdf5::write_number(fates, number.name, double{number.value}, number.description, name);
 }
 
-void read_integration(hid_t fates, const std::string& name, EnsembleResult& result) {
+void read_integration(hid_t fates, const std::string& name, StepCounts& steps,
+                      EnergyError& energy) {
   if (!hdf5::has(fates, step_numbers[0].name)) return;
   for (const StepNumber& number : step_numbers)
-    result.steps.*number.value =
+    steps.*number.value =
         read_number<std::uint64_t>(fates, number.name, fmt::format("/fates/{}", number.name), name);
-  for (const RealNumber& number : reals_of(result))
+  for (const RealNumber& number : reals_of(steps, energy))
     number.value =
         read_number<double>(fates, number.name, fmt::format("/fates/{}", number.name), name);
 }

@@ -50,8 +50,8 @@ inline bool is_integrated(const System& system) {
 }
 /// What integration has cost, and how well energies were kept; archives of earlier builds have none
 /// of it.
-void write_integration(hid_t fates, const EnsembleResult&, const std::string& name);
-void read_integration(hid_t fates, const std::string& name, EnsembleResult&);
+void write_integration(hid_t fates, StepCounts, EnergyError, const std::string& name);
+void read_integration(hid_t fates, const std::string& name, StepCounts&, EnergyError&);
 /// 0 in archives of earlier builds, which called these particles lost.
 std::uint64_t read_unresolved(hid_t fates, const std::string& name);
 

@@ -133,7 +133,8 @@ void write_counts(const ArchiveFile& file, const EscapeResult& result, const Sys
          "Fewest reflections of one that is still there, not pinned; 2^64 - 1: there is none");
   if (system.of_discs())
     number("contacts", counts.contacts, "Contacts of hard discs, each pair once");
-  if (is_integrated(system)) write_integration(group.get(), result, target);
+  if (is_integrated(system))
+    write_integration(group.get(), result.steps, result.energy_error, target);
   if (system.dynamics.forces && !system.dynamics.forces->empty())
     hdf5::write_number(group.get(), "energy_change", counts.energy_change,
                        {"energy", "The largest change of a particle's energy"}, target);
@@ -248,7 +249,7 @@ void read_counts(hid_t file, const std::string& name, EscapeResult& result) {
   if (total(counts.gone_in_hits) > gone)
     damaged(name, "'/survival_hits/gone' has more than '/fates'");
   result.digest = number("digest");
-  read_integration(fates.get(), name, result);
+  read_integration(fates.get(), name, result.steps, result.energy_error);
   const auto effort = [&](const char* what) {
     return static_cast<std::uint64_t>(hdf5::read_integer_attribute(provenance.get(), what, name));
   };

@@ -272,7 +272,7 @@ void write_counts(const ArchiveFile& file, const LyapunovResult& result, const S
       file.group("fates", "Numbers of particles by their end before the end of the window");
   const auto contacts = system.of_discs() ? std::optional(result.contacts) : std::nullopt;
   write_ends(ends, result, {result.trajectories, result.collisions, result.digest, contacts}, name);
-  if (is_integrated(system)) write_integration(ends.get(), result, name);
+  if (is_integrated(system)) write_integration(ends.get(), result.steps, result.energy_error, name);
 }
 
 void read_counts(hid_t file, const std::string& name, LyapunovResult& result) {
@@ -317,7 +317,7 @@ void read_counts(hid_t file, const std::string& name, LyapunovResult& result) {
   result.contacts = numbers.contacts.value_or(0);
   result.repeller = read_repeller(file, name);
   result.digest = numbers.digest;
-  read_integration(ends.get(), name, result);
+  read_integration(ends.get(), name, result.steps, result.energy_error);
 }
 
 }  // namespace carom::io

@@ -3,6 +3,7 @@
 
 #include "io/archive/archive_file.hpp"
 #include "io/archive/columns.hpp"
+#include "io/archive/ensemble_columns.hpp"
 #include "io/archive/section_numbers.hpp"
 #include "io/checkpoint/ensemble_files.hpp"
 
@@ -14,7 +15,10 @@ using hdf5::Handle;
 class SectionArchive::Implementation {
  public:
   Implementation(const std::string& path, const LoadedSystem& loaded, const Provenance& origin)
-      : target(path), file(ArchiveFile::create(aside_of(path), path)), rows(path) {
+      : target(path),
+        file(ArchiveFile::create(aside_of(path), path)),
+        rows(path),
+        integrated(is_integrated(loaded.system)) {
     file.write_head(section_archive_kind, loaded, origin);
     const System& system = loaded.system;
     const Handle group =
@@ -46,6 +50,7 @@ class SectionArchive::Implementation {
   std::string target;
   ArchiveFile file;
   hdf5::Columns rows;
+  bool integrated;
 };
 
 SectionArchive::SectionArchive(const std::string& file, const LoadedSystem& loaded,
@@ -72,6 +77,7 @@ void SectionArchive::finish(const SectionResult& result, const std::string& stat
     for (const SectionNumber& number : section_numbers)
       hdf5::write_number(group.get(), number.name, result.*number.value, {"1", number.text},
                          a.target);
+    if (a.integrated) write_integration(group.get(), result.steps, result.energy_error, a.target);
     const Handle provenance = a.file.open_group("provenance");
     hdf5::change_attribute(provenance.get(), "threads", std::int64_t{result.threads}, a.target);
   }

@@ -160,6 +160,7 @@ StoredSection read_section(const std::string& file) {
   for (const SectionNumber& number : section_numbers)
     stored.result.*number.value =
         hdf5::read_column<std::uint64_t>(fates.get(), number.name, file).at(0);
+  read_integration(fates.get(), file, stored.result.steps, stored.result.energy_error);
   stored.result.complete = hdf5::read_integer_attribute(group.file(), "complete", file) != 0;
   stored.system_toml = hdf5::read_text(group.file(), "system", file);
   const Handle provenance(H5Gopen2(group.file(), "provenance", H5P_DEFAULT), H5Gclose);

@@ -154,8 +154,11 @@ void set_path(Value& root, const std::string& path, Value value) {
       if (index > next->items.size()) {
         throw InputError(
             place, "there is no '" + step.key + "[" + std::to_string(index) + "]'",
-            "an index below " + std::to_string(next->items.size()) + ", or that to append");
+            next->items.empty()
+                ? "the index 0, to append the first"
+                : "an index below " + std::to_string(next->items.size()) + ", or that to append");
       }
+      made.key += "[" + std::to_string(index) + "]";
       if (index == next->items.size()) next->items.push_back(empty(Value::Kind::table, made));
       next = &next->items[index];
     }
