@@ -36,10 +36,15 @@ LyapunovListener::LyapunovListener(const System& system, const GrowthTimes& time
       engine_(engine),
       thread_(thread),
       hash_(system),
-      record_of_(system) {}
+      record_of_(system),
+      watch_(system, [this] { return thread_.stopped(); }) {}
 
 void LyapunovListener::begin(const Trajectory& t) {
-  if (under_way_.size() <= t.slot) under_way_.resize(t.slot + 1);
+  if (under_way_.size() <= t.slot) {
+    under_way_.resize(t.slot + 1);
+    energies_.resize(t.slot + 1, watch_);
+  }
+  energies_[t.slot].begin(t);
   std::vector<Orbit>& orbits = under_way_[t.slot];
   orbits.resize(t.starts.size());
   for (std::size_t p = 0; p < orbits.size(); ++p) {
@@ -108,6 +113,7 @@ TrajectoryRecord LyapunovListener::record(const Trajectory& t, const TrajectoryE
 
 void LyapunovListener::end(const Trajectory& t, const TrajectoryEnd& end) {
   std::vector<Orbit>& orbits = under_way_[t.slot];
+  const EnergiesSeen energies = energies_[t.slot].end(t, end);
   const DecisionCounts decisions = engine_.decisions();
   const TrajectoryRange range{t.number, t.number + 1};
   std::uint64_t hits = 0;
@@ -140,6 +146,7 @@ void LyapunovListener::end(const Trajectory& t, const TrajectoryEnd& end) {
           sum.digest += hash;
           if (is_failure(particle.fate)) keep_first(sum.reports, index, particle.report);
         }
+        sum.energy_error += energies.error;
         sum.contacts += end.contacts;
         sum.steps += end.steps;
         sum.decisions += decisions - std::exchange(decisions_, decisions);

@@ -9,6 +9,7 @@
 
 #include "carom/ensemble/engine.hpp"
 #include "carom/ensemble/lyapunov.hpp"
+#include "ensemble/energy_watch.hpp"
 #include "ensemble/ensemble_run.hpp"
 #include "ensemble/first_reports.hpp"
 #include "ensemble/particle_hash.hpp"
@@ -71,6 +72,8 @@ class LyapunovListener : public Listener {
   const ParticleHash hash_;
   const RecordMaker record_of_;
   std::vector<std::vector<Orbit>> under_way_;  ///< by slot, then by particle
+  const EnergyWatch watch_;                    ///< of a trajectory that has not begun
+  std::vector<EnergyWatch> energies_;          ///< by slot
   DecisionCounts decisions_;                   ///< that were told
 };
 

@@ -1,10 +1,13 @@
 #include "ensemble/one_by_one.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
+#include "carom/base/error.hpp"
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/lyapunov.hpp"
 #include "carom/ensemble/sampler.hpp"
@@ -119,6 +122,13 @@ void OneByOne::stretch(std::size_t particle, const Time& time, bool also_at) {
     // where all turn into one direction.
     const auto lengths = group ? std::array{group->logarithms()[0], group->logarithms()[0]}
                                : mine.tangent.logarithms(mark);
+    // The group flies beside the world, with steps that end at the marks, too.
+    if (!std::isfinite(lengths[0]))
+      throw InputError(Place{"", 0, 0, "integrator.step"},
+                       fmt::format("steps of {} are too long to follow deviations: beside "
+                                   "trajectory {} they ran away before t = {:.6g}",
+                                   system_.dynamics.integrator.step, trajectory_.number, mark),
+                       "a shorter step");
     listener_->stretched(trajectory_, static_cast<int>(told), mine.marked,
                          options_.frame ? group->logarithms() : std::span<const double>(lengths),
                          mine.hits);

@@ -146,6 +146,18 @@ TEST(Lyapunov, TheSpectrumComesInPairsAndGoesOnFromArchives) {
   EXPECT_EQ(json_value(none.out, "spectrum"), "");
 }
 
+// A coarse step is doubted as everywhere; one so coarse that deviations run away is named.
+TEST(Lyapunov, DoubtsAndRefusesCoarseSteps) {
+  const Shell shell;
+  const std::string coarse =
+      "$carom lyapunov henon-heiles --set integrator.scheme=velocity-verlet --set "
+      "integrator.step=0.9 --json --t-max ";
+  const Outcome doubted = shell(coarse + "50");
+  EXPECT_EQ(doubted.status, 3);
+  EXPECT_NE(json_value(doubted.out, "energy_error"), "");
+  expect_refused(shell(coarse + "140"), "integrator.step: ");
+}
+
 // Repeated they would scatter by nothing at all.
 TEST(Lyapunov, TakesEachListedStartOnce) {
   const Shell shell;

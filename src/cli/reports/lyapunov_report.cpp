@@ -259,6 +259,7 @@ Json result_json(const System& system, const LyapunovResult& result,
   add_reports(json, result.reports);
   json.set("digest", fmt::format("{:016x}", result.digest));
   json.set("decisions", decisions_json(result.decisions));
+  if (engine_of(system) != "events") json.set("energy_error", energy_json(result.energy_error));
   add_steps(json, system, result.steps);
   if (const std::string none =
           why_one_by_one(system, {.deviations = {1.0}, .frame = system.run.spectrum});
@@ -321,6 +322,7 @@ std::string result_text(const System& system, const LyapunovResult& result,
   for (const std::string& note : notes_of(system, result, e)) text += folded(note) + '\n';
   if (const std::string ends = fates_text(result); !ends.empty())
     text += "\nof the particles: " + ends + "\n";
+  if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
   text += "\n" + work_text(system, result.collisions, result.contacts, result);
   text += verbose_text(system, result, context);
   if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
