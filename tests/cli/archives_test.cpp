@@ -115,11 +115,15 @@ TEST(RunArchive, GoesOnAsIfNeverStopped) {
 TEST(RunArchive, DoesNotReviveParticlesThatStoppedAtOtherTimes) {
   const Shell shell;
   const std::string pair = "$carom run stadium --closed --set particles.count=2 --collisions 3 ";
-  const std::string acting =
-      "--set 'interaction={kind=\"coulomb\",strength=0.3}' --set integrator.step=0.01 ";
-  EXPECT_EQ(shell(pair + acting + "-o a.h5").status, 0);
-  expect_refused(shell("$carom run --resume a.h5 --collisions 8"), "command line: --collisions: ");
-  EXPECT_EQ(shell("$carom run --resume a.h5").status, 0);
+  for (const std::string acting :
+       {"--set 'interaction={kind=\"coulomb\",strength=0.3}' --set integrator.step=0.01 ",
+        "--set 'interaction={kind=\"hard-discs\",radius=0.05}' --set "
+        "'initial={kind=\"uniform\"}' "}) {
+    EXPECT_EQ(shell(pair + acting + "--force -o a.h5").status, 0);
+    expect_refused(shell("$carom run --resume a.h5 --collisions 8"),
+                   "command line: --collisions: ");
+    EXPECT_EQ(shell("$carom run --resume a.h5").status, 0) << acting;
+  }
   EXPECT_EQ(shell(pair + "--force -o a.h5 && $carom run --resume a.h5 --collisions 8").status, 0);
 }
 

@@ -42,7 +42,7 @@ struct Column {
 };
 /// Lines of right-aligned columns, two blanks before each.
 std::string aligned(const std::vector<Column>&);
-/// The same in lines that fit: columns for which there is no room follow in further tables, each
+/// The same in lines that fit a screen: columns that do not go beside follow in further tables, each
 /// with the first column.
 std::string fitted(const std::vector<Column>&);
 /// "low .. high", padded so that the dots of all rows are below each other.

@@ -191,6 +191,8 @@ void Runs::time(World& world, double t, Orbit& orbit) const {
 // where they ended, and a start at a wall is not met. A single step leaves no way between.
 void Runs::turn_back(World& world, double step, double t, Orbit& orbit) const {
   const double first = step > 0.0 ? std::min(step, t) : t / looks;
+  // A quotient that was rounded to just below a whole number is this number. Where 2^-40 is too
+  // much, the way back begins so much later than t, and what it tells is the same.
   const double last = std::floor(t / first * (1.0 + 0x1p-40)) * first;
   if (!(last > first)) return;
   Observer none;
