@@ -132,8 +132,9 @@ class System:
         return self.with_(**{key: value for key, value in keywords.items() if is_of_a_system(key)})
 
     def _held_beside(self, keywords):
-        """What stays of what the system holds: `initial` is a start as a whole, and takes its place."""
-        if keywords.get("initial") is None:
+        """What stays of what the system holds: a start as a whole takes the place of that before."""
+        given = {key for key in ("position", "velocity", "angle", "initial") if keywords.get(key) is not None}
+        if "initial" not in given and not ("position" in given and len(given) > 1):
             return self._changes, self._options
         return (
             [one for one in self._changes if one[0].split(".")[0] != "initial"],

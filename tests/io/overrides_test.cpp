@@ -148,6 +148,19 @@ TEST(Overrides, AnAngleThatIsSetGoesWithThePosition) {
   EXPECT_EQ(read(square(), v).initial.velocity, (geometry::Vector{0, 1}));
 }
 
+// One of the two would be lost without a word.
+TEST(Overrides, AStartIsGivenOnce) {
+  for (const auto& [key, value] : {std::pair{"initial.kind", "uniform"},
+                                   {"initial", "{kind = \"uniform\"}"},
+                                   {"initial.position", "[0.1, 0.1]"},
+                                   {"initial.velocity", "[0, 1]"}}) {
+    SystemOverrides o = set(key, value);
+    o.position = "0.3,0.4";
+    o.velocity = "1,0";
+    expect_blamed(o, key);
+  }
+}
+
 TEST(Overrides, WindowIsAPairOfNumbers) {
   SystemOverrides o;
   o.window = "1/3:pi";

@@ -216,5 +216,6 @@ def test_a_start_takes_the_place_of_the_one_before():
     again = held.with_(initial={"kind": "uniform"})
     assert carom.run(again, t_max=1).x == drawn
     assert carom.run(again, position=(0, 0), velocity=(1, 0), t_max=1).x == 1
+    assert carom.run(again.with_(position=(0, 0), angle=0), t_max=1).x == 1
     with pytest.raises(carom.InputError, match="'initial' and 'position' are both given"):
         carom.run(closed, initial="uniform", position=(0, 0), t_max=1)

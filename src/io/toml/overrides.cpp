@@ -87,14 +87,21 @@ void place_start(const SystemOverrides& overrides, Value& root) {
   const Value* kind = old == nullptr ? nullptr : old->find("kind");
   Value initial =
       kind != nullptr && kind->text == "point" ? *old : empty(Value::Kind::table, place);
+  const auto refuse_typed = [&](const char* key, const char* beside) {
+    const Value* typed = old == nullptr ? nullptr : old->find(key);
+    if (typed != nullptr && typed->place.file == command_line_file)
+      throw InputError(typed->place, std::string("initial.") + key + " is given beside " + beside,
+                       "one of them");
+  };
+  if (kind != nullptr && kind->text != "point") refuse_typed("kind", place.key.c_str());
+  if (!overrides.position.empty()) refuse_typed("position", "--position");
+  for (const char* key : {"velocity", "angle"})
+    if (!overrides.velocity.empty()) refuse_typed(key, "--velocity");
   // Keys of the start that --set gives count, whatever kind of start the file has.
   for (const char* key : {"position", "velocity", "angle"}) {
     const Value* typed = old == nullptr ? nullptr : old->find(key);
     if (typed != nullptr && typed->place.file == command_line_file) initial.set(key, *typed);
   }
-  const Value* angle = initial.find("angle");
-  if (!overrides.velocity.empty() && angle != nullptr && angle->place.file == command_line_file)
-    throw InputError(angle->place, "initial.angle is given beside --velocity", "one of them");
   initial.set("kind", text_value("point", place));
   if (!overrides.position.empty())
     initial.set("position", pair_of(overrides.position, command_line("--position")));
