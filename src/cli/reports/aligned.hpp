@@ -42,8 +42,8 @@ struct Column {
 };
 /// Lines of right-aligned columns, two blanks before each.
 std::string aligned(const std::vector<Column>&);
-/// The same in lines that fit a screen: columns that do not go beside follow in further tables, each
-/// with the first column.
+/// The same in lines that fit a screen: columns that do not go beside follow in further tables,
+/// each with the first column.
 std::string fitted(const std::vector<Column>&);
 /// "low .. high", padded so that the dots of all rows are below each other.
 std::vector<std::string> ranges(const std::vector<std::string>& low,
