@@ -16,6 +16,8 @@ namespace {
 
 // ln 20, as in the fit of ensembles.
 constexpr double decisive = 2.995732273553991;
+// A p-value below which no law is decided for, as in the fit of ensembles.
+constexpr double refuted = 0.01;
 
 /// Logarithms of survival at reports, to first order in what a repetition differs from the mean by:
 /// a mean of logarithms would be off by the variance of a population.
@@ -79,16 +81,22 @@ SplitDecay fit(const SplittingResult& result, const Logarithms& ln_p, DecayLaw l
   decay.p_value = std::nan("");
   std::size_t middle = span.first + 1;
   while (middle + 1 < span.last && u(middle) < 0.5 * (u(span.first) + u(span.last))) ++middle;
-  if (middle >= span.last) return decay;
-  const Extrapolated change = extrapolated(result, [&](std::size_t k, std::size_t r) {
-    return slope(k, r, span.first, middle) - slope(k, r, middle, span.last);
-  });
-  if (change.repetitions < 2 || !(change.limit.error > 0.0)) return decay;
-  const double degrees = static_cast<double>(change.repetitions - 1);
-  const double t = change.limit.value / change.limit.error;
-  decay.p_value = base::student_beyond(t, degrees);
-  // The density of Student's t at this difference, over that at none.
-  decay.evidence = -0.5 * (degrees + 1.0) * elementary::log(1.0 + t * t / degrees);
+  // Survival in steps may have equal slopes in both halves, so every report within is asked. Their
+  // p-values depend on each other; the least of them times their number is safe (Bonferroni).
+  double least = 1.0;
+  for (std::size_t m = span.first + 1; m < span.last; ++m) {
+    const Extrapolated change = extrapolated(result, [&](std::size_t k, std::size_t r) {
+      return slope(k, r, span.first, m) - slope(k, r, m, span.last);
+    });
+    if (change.repetitions < 2 || !(change.limit.error > 0.0)) continue;
+    const double degrees = static_cast<double>(change.repetitions - 1);
+    const double t = change.limit.value / change.limit.error;
+    least = std::min(least, base::student_beyond(t, degrees));
+    decay.p_value = std::min(1.0, least * static_cast<double>(span.last - span.first - 1));
+    // The density of Student's t at this difference, over that at none.
+    if (m == middle)
+      decay.evidence = -0.5 * (degrees + 1.0) * elementary::log(1.0 + t * t / degrees);
+  }
   return decay;
 }
 
@@ -139,7 +147,8 @@ SplitFit fit_decay(const SplittingResult& result, std::optional<DecayWindow> win
       made.decays.begin(), made.decays.end(),
       [](const SplitDecay& x, const SplitDecay& y) { return x.evidence > y.evidence; });
   made.decided =
-      made.decays.size() == 1 || made.decays[0].evidence - made.decays[1].evidence > decisive;
+      !(made.decays[0].p_value < refuted) &&
+      (made.decays.size() == 1 || made.decays[0].evidence - made.decays[1].evidence > decisive);
   return made;
 }
 

@@ -78,6 +78,19 @@ TEST(SplittingFit, HoldsTheRateOfAnExponential) {
 }
 TEST(SplittingFit, HoldsTheExponentOfAPower) { expect_held(power, DecayLaw::power, 2.0); }
 
+// Survival that falls in steps of four levels, as that of discs far apart: its slopes in the halves
+// of a window may be those of either law, and neither describes it.
+TEST(SplittingFit, DecidesForNoLawThatReportsWithinRefute) {
+  Generator generator(4);
+  const auto steps = [](double t) { return std::exp(-1.2 * std::floor(t / 4)); };
+  for (int trial = 0; trial < 20; ++trial) {
+    const SplitFit fit = fit_decay(made_up(steps, generator, 300, 16));
+    ASSERT_FALSE(fit.decays.empty());
+    EXPECT_LT(fit.decays[0].p_value, 0.01);
+    EXPECT_FALSE(fit.decided);
+  }
+}
+
 TEST(SplittingFit, TakesTheReportsOfItsWindow) {
   Generator generator(2);
   const SplittingResult result = made_up(exponential, generator, 300, 4);

@@ -17,16 +17,19 @@ struct SplitDecay {
   DecayLaw law = DecayLaw::exponential;
   Extrapolated rate;  ///< 1/time, 1/hit or the exponent of a power
   double amplitude = 0.0, amplitude_error = 0.0;
-  /// How likely the rates of the earlier and the later half of the window differ by as much, if the
-  /// law holds (Student's t, paired by repetitions); NaN with less than three reports.
+  /// How likely the rates before and after some report within differ by as much, if the law holds
+  /// (Student's t, paired by repetitions; the least p-value times the number of reports within); NaN
+  /// with less than three reports.
   double p_value = 0.0;
-  double evidence = 0.0;  ///< logarithm of the likelihood of that difference; 0 where it is NaN
+  /// Logarithm of the likelihood of that difference at the window's middle; 0 where it is NaN.
+  double evidence = 0.0;
 };
 
 struct SplitFit {
   double from = 0.0, to = 0.0;     ///< the window, from report to report
   std::vector<SplitDecay> decays;  ///< the likelier first; none if `why_none` says why
-  bool decided = false;            ///< the first is at least twenty times as likely as the second
+  /// The first is at least twenty times as likely as the second, and its p-value is not below 0.01.
+  bool decided = false;
   std::string why_none;
 };
 
