@@ -338,9 +338,9 @@ TEST(Section, WatchingChangesNoBit) {
 
 // Whichever block it is at which the disk is full: every thread ends, and nothing more is written.
 TEST(Section, ErrorsLeaveTheThreads) {
-  const System system = with_section(ellipse, "on = \"x=0\"\npoints = 2", 1000, 24);
+  const System system = with_section(ellipse, "on = \"x=0\"\npoints = 2", 1000, 96);
   for (const int threads : {1, 2, 3, 8})
-    for (int k = 0; k < 12; ++k) {
+    for (int k = 0; k < 7; ++k) {
       int calls = 0;
       SectionOptions options;
       options.threads = threads;
