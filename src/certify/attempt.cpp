@@ -49,7 +49,8 @@ Attempt::Attempt(const ExactSystem& system, const CertifiedTask& task, const Kno
 }
 
 void Attempt::set_arena(BallTable table) {
-  where_ = whereabouts_of(table);
+  const Ball omega = value_of(system_.omega);
+  where_ = whereabouts_of(table, omega);
   const double size = std::max(where_.stretch, where_.widest);
   arena_.unit = size > 0.0 ? power_near(size) : 1.0;
   SceneOf<Ball>& scene = arena_.scene;
@@ -58,9 +59,10 @@ void Attempt::set_arena(BallTable table) {
   const Ball written_speed = value_of(system_.speed);
   scene.motion.speed2 = square(written_speed);
   scene.motion.inverse_speed2 = Ball(1) / scene.motion.speed2;
-  scene.motion.half_omega = value_of(system_.omega) / 2;
+  scene.motion.half_omega = omega / 2;
   scene.motion.turns = sign(scene.motion.half_omega) != Sign::zero;
-  arena_.speed = written_speed.to_double() * 1.000001;
+  // Velocities of midpoints are faster by less than linear_bits() allows, 2^-20.
+  arena_.speed = interval_of(written_speed).high * (1.0 + 0x1p-19);
   arena_.time_unit = arena_.unit / arena_.speed;
   scene.holes = ball_holes(system_, scene.walls);
   arena_.fast = converted<Interval>(scene, [](const Ball& x) { return interval_of(x); });
@@ -120,8 +122,8 @@ double Attempt::needed_bits() const {
   return std::max(error + bits_of(task_.digits) + 2.0, linear_bits());
 }
 
-// Constants of bounds by first order hold a margin for the second order (1.0001 and the like). It
-// is enough while errors are small.
+// Bounds of LineEnclosure by first order hold a margin for the second order: 1.0001 and 1.001.
+// Below 2^-20 of the state the second order is a share of at most some 2^-19 of the first.
 double Attempt::linear_bits() const { return now_.state->error().log2() + 20.0; }
 
 Outcome Attempt::step() {

@@ -29,12 +29,6 @@ Ball sin_of(const Ball& a) {
   arb_sin(r.raw(), a.raw(), Precision::bits());
   return r;
 }
-/// An upper bound of the size of all numbers of a ball.
-Bound size_of(const Ball& a) {
-  Bound b;
-  arb_get_mag(b.raw(), a.raw());
-  return b;
-}
 BallVector scaled(const Ball& s, const BallVector& v) { return {s * v.x, s * v.y}; }
 
 // A wall as a function of one number: from + t chord, or centre + A cos t + B sin t.
@@ -126,10 +120,10 @@ class Equations {
  public:
   Equations(const ExactSystem& system, const std::vector<NearHit>& hits) : hits_(hits) {
     BallTable table = ball_table(*system.spec);
-    where_ = whereabouts_of(table);
+    const Ball omega = value_of(system.omega);
+    where_ = whereabouts_of(table, omega);
     scene_.walls = std::move(table.walls);
     scene_.lattice = std::move(table.lattice);
-    const Ball omega = value_of(system.omega);
     speed = value_of(system.speed);
     scene_.motion.speed2 = square(speed);
     scene_.motion.inverse_speed2 = Ball(1) / scene_.motion.speed2;

@@ -19,10 +19,10 @@ EscapeResult nothing(const System& system) {
 
 // What one thread does.
 void work(const System& system, const Sampler& sampler, const EscapeOptions& options,
-          const World& world, EscapeListener::Thread& thread, BlockOrder* order) {
+          const World& world, EscapeListener::Thread& thread, EscapeListener::Output& output) {
   const auto engine =
       make_engine(system, {.t_end = system.run.t_max, .lanes = options.lanes, .like = &world});
-  EscapeListener listener(system, *engine, thread, order);
+  EscapeListener listener(system, *engine, thread, output);
   DrawnStarts starts(sampler, [&](TrajectoryRange& block) { return listener.claim(block); });
   while (engine->run(starts, listener, [&] { return thread.stopped(); }) && listener.go_on()) {
   }
@@ -43,17 +43,11 @@ EscapeResult run_escape(const System& system, const EscapeOptions& options) {
   const World world = make_world(system, options.decisions);  // threads share its table
   EnsembleRun<EscapeResult> run(system, options, nothing(system));
   if (why_one_by_one(system).empty()) run.lanes = options.lanes;
-  BlockOrder order(options.records, 16 * static_cast<std::uint64_t>(run.threads()));
+  EscapeListener::Output output(options.records, 16 * static_cast<std::uint64_t>(run.threads()));
   const EscapeResult result = run.run([&](EscapeListener::Thread& thread) {
-    try {
-      work(system, sampler, options, world, thread, options.records ? &order : nullptr);
-    } catch (...) {
-      order.close();  // no thread may wait for a block that will not come
-      throw;
-    }
-    if (thread.stopped()) order.close();
+    work(system, sampler, options, world, thread, output);
   });
-  if (options.records) order.flush();
+  output.finish();
   return result;
 }
 

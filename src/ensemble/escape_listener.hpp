@@ -10,10 +10,10 @@
 #include "carom/ensemble/escape.hpp"
 #include "carom/ensemble/injection.hpp"
 #include "carom/table/hole_names.hpp"
-#include "ensemble/block_order.hpp"
 #include "ensemble/energy_watch.hpp"
 #include "ensemble/ensemble_run.hpp"
 #include "ensemble/first_reports.hpp"
+#include "ensemble/ordered_output.hpp"
 #include "ensemble/particle_hash.hpp"
 #include "ensemble/record_of.hpp"
 
@@ -25,14 +25,14 @@ namespace carom::ensemble {
 class EscapeListener : public Listener {
  public:
   using Thread = EnsembleRun<EscapeResult>::Thread;
+  using Output = OrderedOutput<TrajectoryRecord>;
 
-  /// `order`: of records, or null.
-  EscapeListener(const System& system, const Engine& engine, Thread& thread, BlockOrder* order)
+  EscapeListener(const System& system, const Engine& engine, Thread& thread, Output& output)
       : system_(system),
         engine_(engine),
         thread_(thread),
-        order_(order),
-        wants_records_(order || thread.wants_records()),
+        writer_(output),
+        wants_records_(writer_.is_wanted() || thread.wants_records()),
         hash_(system),
         record_of_(system),
         none_(system.run.times, hole_names(*system.table).size(), system.quasi_random()),
@@ -43,8 +43,8 @@ class EscapeListener : public Listener {
     if (pause_ || thread_.stopped()) return false;
     std::uint64_t number = 0;
     if (exhausted_ = !thread_.claim(block, number); exhausted_) return false;
-    if (order_) order_->await_turn(number);
-    pause_ = order_ != nullptr;
+    writer_.await_turn(number);
+    pause_ = writer_.is_wanted();
     blocks_.push_back({block, number, block.last - block.first, {}, {}});
     blocks_.back().part.counts = none_;
     return true;
@@ -102,7 +102,7 @@ class EscapeListener : public Listener {
   void deliver(Block& block) {
     std::sort(block.records.begin(), block.records.end(),
               [](const auto& a, const auto& b) { return a.index < b.index; });
-    if (order_) order_->deliver(block.number, block.records);
+    if (writer_.is_wanted() && !writer_.deliver(block.number, block.records)) return;
     const DecisionCounts decisions = engine_.decisions();
     const LaneEffort effort = engine_.effort();
     block.part.decisions = decisions - std::exchange(decisions_, decisions);
@@ -115,7 +115,7 @@ class EscapeListener : public Listener {
   const System& system_;
   const Engine& engine_;
   Thread& thread_;
-  BlockOrder* const order_;
+  Output::Writer writer_;
   const bool wants_records_;
   const ParticleHash hash_;
   const RecordMaker record_of_;

@@ -9,8 +9,8 @@
 #include "carom/ensemble/engine.hpp"
 #include "carom/ensemble/stopwatch.hpp"
 #include "carom/ensemble/trajectories.hpp"
-#include "ensemble/block_order.hpp"
 #include "ensemble/first_reports.hpp"
+#include "ensemble/ordered_output.hpp"
 #include "ensemble/parallel_blocks.hpp"
 
 namespace carom {
@@ -22,7 +22,7 @@ namespace {
 // Orbits of random starts, unless a number is asked for: more are hard to tell apart in a picture.
 constexpr std::uint64_t default_orbits = 50;
 
-using Order = OrderedBlocks<SectionPoint>;
+using Output = OrderedOutput<SectionPoint>;
 
 /// Adds counts and reports.
 void add(SectionResult& sum, const SectionResult& r) {
@@ -63,39 +63,28 @@ EngineOptions asked_for(const System& system, const SectionOptions& options, con
 class Follower : public Listener {
  public:
   Follower(const System& system, const Sampler& sampler, const SectionOptions& options,
-           const World& world, Order& order, const std::function<void(std::uint64_t)>& done)
+           const World& world, Output& output, const std::function<void(std::uint64_t)>& done)
       : system_(system),
         sampler_(sampler),
         options_(options),
         frames_(frames_of(*system.table)),
         engine_(make_engine(system, asked_for(system, options, world))),
-        order_(order),
+        writer_(output),
         done_(done) {}
   Follower(const Follower&) = delete;
   Follower& operator=(const Follower&) = delete;
 
   bool run(std::uint64_t block, std::uint64_t first, std::uint64_t end,
            const std::function<bool()>& stopped) {
-    bool complete = false;
-    try {
-      if (options_.points) order_.await_turn(block);
-      first_ = first;
-      points_.assign(options_.points ? end - first : 0, {});
-      DrawnStarts starts(sampler_, TrajectoryRange{first, end});
-      complete = engine_->run(starts, *this, stopped);
-    } catch (...) {
-      order_.close();  // no thread may wait for what will never come
-      throw;
-    }
-    if (!complete) {
-      order_.close();
-      return false;
-    }
+    writer_.await_turn(block);
+    first_ = first;
+    points_.assign(writer_.is_wanted() ? end - first : 0, {});
+    DrawnStarts starts(sampler_, TrajectoryRange{first, end});
+    if (!engine_->run(starts, *this, stopped)) return false;
     std::vector<SectionPoint> all;
     for (const std::vector<SectionPoint>& points : points_)
       all.insert(all.end(), points.begin(), points.end());
-    if (options_.points) order_.deliver(block, std::move(all));
-    return true;
+    return writer_.deliver(block, std::move(all));
   }
 
   void begin(const Trajectory& t) override {
@@ -116,7 +105,7 @@ class Follower : public Listener {
   void end(const Trajectory& t, const TrajectoryEnd& end) override {
     const std::vector<SectionPoint>& points = recorders_[t.slot].points();
     count(t.number, points, end);
-    if (options_.points) points_[t.number - first_] = points;
+    if (writer_.is_wanted()) points_[t.number - first_] = points;
     if (options_.progress) done_(points.size());
   }
 
@@ -157,7 +146,7 @@ class Follower : public Listener {
   const SectionOptions& options_;
   const std::vector<geometry::CurveFrame> frames_;
   const std::unique_ptr<Engine> engine_;
-  Order& order_;
+  Output::Writer writer_;
   const std::function<void(std::uint64_t)>& done_;
   std::vector<SectionRecorder> recorders_;         ///< by slot
   std::uint64_t first_ = 0;                        ///< orbit of the block, …
@@ -184,7 +173,7 @@ SectionResult run_section(const System& system, const SectionOptions& options) {
   // Blocks wait for their turn in memory.
   const std::uint64_t each = system.section.points;
   const BlockPlan plan(section_orbits(system), options.threads, each == 0 ? 1 : 50000 / each + 1);
-  Order order(options.points, 4 * static_cast<std::uint64_t>(plan.threads));
+  Output output(options.points, 4 * static_cast<std::uint64_t>(plan.threads));
   std::atomic<std::uint64_t> orbits{0}, points{0};
   std::mutex progress_mutex;
   const std::function<void(std::uint64_t)> report = [&](std::uint64_t new_points) {
@@ -197,12 +186,12 @@ SectionResult run_section(const System& system, const SectionOptions& options) {
   SectionResult result;
   result.complete = run_blocks(
       plan, options.interrupted,
-      [&] { return Follower(system, sampler, options, world, order, report); },
+      [&] { return Follower(system, sampler, options, world, output, report); },
       [&](Follower& follower) {
         add(result, follower.sum);
         result.decisions += follower.decisions();
       });
-  if (options.points) order.flush();
+  output.finish();
   result.seconds = watch.seconds();
   result.cpu_seconds = watch.cpu_seconds();
   result.threads = plan.threads;

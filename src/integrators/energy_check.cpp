@@ -11,8 +11,9 @@ namespace {
 
 using geometry::Vector;
 
-/// Against the bound without margin good steps change the energy by 0.25 at most with Runge–Kutta
-/// and by 1 with Adams, in edges that are steep for the step by 10 (docs/physics/integrators.md).
+/// Measured, not proved: against the bound without margin good steps change the energy by 0.25 at
+/// most with Runge–Kutta and by 1 with Adams, in edges that are steep for the step by 10
+/// (docs/physics/integrators.md).
 constexpr double margin = 50.0;
 
 /// Far more than the displacements that noise_at() tries.

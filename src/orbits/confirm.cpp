@@ -36,9 +36,15 @@ State start_of(const OrbitHit& hit, double speed) {
   return state;
 }
 
-// How far from the next hit the engine's may lie along the wall. To first order, doubled: the start
-// errs by the unknown's error along its wall, the direction by two of them over the chord and by
-// the half-turn's, and each by rounding.
+// How far from the next hit the engine's may lie along the wall. An estimate, to first order and
+// doubled; `--certify` proves. Errors are those of the unknowns and of rounding:
+// - A place errs by its unknown's error; points of both, which are compared, by 12 u D each
+//   (chain.hpp (1)).
+// - The direction errs by two places over the chord, by the half-turn's error, and by rounding:
+//   difference, root and quotients 4 u, sine and cosine 2 u, the rotation 3 u (chain.hpp (1));
+//   times the speed, over it, times the factor that sets the speed and the speed again 4 u; the
+//   world sets the speed once more, 2 u. That is 15 u; the points' roundings are in the places.
+// The engine's own rounding is that of a start displaced by a few u D: it is left to the doubling.
 double allowed(const Boundary& boundary, const Solution& solution, std::size_t i) {
   const ChainGeometry& g = solution.geometry;
   const ChainFlight& flight = g.flights[i];

@@ -44,8 +44,10 @@ double trace_at(const Boundary& boundary, const Chain& chain) {
   return tangent_map(boundary, chain, g, chain.size()).trace();
 }
 
-// How far the error of the unknowns moves the trace, to first order: differences over 2^-20 of the
-// shortest chord, whose own errors (2^-20 of the derivative, and 2^-33 of the trace) do not count.
+// An estimate of how far the error of the unknowns moves the trace: that error times the trace's
+// derivatives, from differences over 2^-20 of the shortest chord. The differences themselves err by
+// about 2^-21 of the chord times the second derivative, and by 2^20 times the rounding of the trace
+// over the chord; neither is bounded here.
 double trace_error_of_places(const Boundary& boundary, const Solution& solution) {
   const double at = trace_at(boundary, solution.chain), h = 0x1p-20;
   const std::size_t n = solution.chain.size(), m = equations(boundary, solution.chain);

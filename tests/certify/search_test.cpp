@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "certify/enclosure/point_enclosure.hpp"
 #include "certify/flight/scene.hpp"
 #include "certify/systems.hpp"
 #include "certify/wall/ball_table.hpp"
@@ -94,6 +95,40 @@ TEST(LatticeSearch, DiscsHoldTheirWalls) {
   }
   EXPECT_GT(points, 20000);
   EXPECT_GT(narrow, 3);
+}
+
+// Numbers that a few bits tell badly: the disc holds all walls that they may mean, and nothing is
+// looked for by it.
+TEST(LatticeSearch, DiscsHoldAllWallsOfWideBalls) {
+  const Precision precision(64);
+  const tests::Shaped torus = tests::shaped("sinai", {{"side", "4"}, {"radius", "1"}}, "0", "0");
+  certify::BallTable table = certify::ball_table(torus.spec);
+  EXPECT_TRUE(std::isfinite(certify::whereabouts_of(table).rounding));
+  table.walls[0].radius2 = Ball(1.0).widened(certify::Bound(0.44));
+  EXPECT_GE(certify::whereabouts_of(table).discs[0].radius, 1.2);
+  EXPECT_FALSE(std::isfinite(certify::whereabouts_of(table).rounding));
+  certify::BallTable skewed = certify::ball_table(torus.spec);
+  skewed.lattice->first.y = Ball(0).widened(certify::Bound(1e-9));
+  EXPECT_FALSE(std::isfinite(certify::whereabouts_of(skewed).rounding));
+}
+
+TEST(PointEnclosure, NoRadiusOfCurvatureIsBelowTheLeast) {
+  const Precision precision(64);
+  const auto least = [](const certify::WallOf<Ball>& wall) {
+    return certify::least_radius(
+        certify::converted<Interval>(wall, [](const Ball& x) { return certify::interval_of(x); }));
+  };
+  const certify::BallVector origin{Ball(0), Ball(0)};
+  const Ball wide = Ball(1.0).widened(certify::Bound(0.25));  // 3/4 to 5/4
+  EXPECT_LE(least(certify::circle_wall(origin, wide, true)), 0.75);
+  EXPECT_GE(least(certify::circle_wall(origin, Ball(1), true)), 1.0 - 1e-15);
+  const auto ellipse = [&](const Ball& a, const Ball& ratio) {
+    return least(certify::ellipse_wall(origin, {a, Ball(0)}, ratio, true));
+  };
+  EXPECT_NEAR(ellipse(Ball(2), Ball(0.5)), 0.5, 1e-14);  // b^2/a
+  EXPECT_LE(ellipse(Ball(2), Ball(0.5)), 0.5);
+  EXPECT_NEAR(ellipse(Ball(2), Ball(1.5)), 4.0 / 3.0, 1e-14);  // a^2/b
+  EXPECT_LE(ellipse(Ball(2) * wide, Ball(0.5)), 0.375);
 }
 
 }  // namespace

@@ -415,7 +415,8 @@ TEST(FullDisk, LeavesNothing) {
   for (const char* size : {"2", "64", "300"}) {
     for (const char* command :
          {"$carom run sinai --collisions 1e6 -o a.h5",
-          "$carom escape sinai --trajectories 20000 --t-max 5 --per-trajectory -o a.h5"}) {
+          "$carom escape sinai --trajectories 20000 --t-max 5 --per-trajectory -o a.h5",
+          "$carom section stadium --closed --orbits 400 --points 1000 --threads 4 -o a.h5"}) {
       const Outcome o = shell("( ulimit -f " + std::string(size) + "; " + command + " --json )");
       EXPECT_EQ(o.status, 1) << command;
       EXPECT_EQ(o.out, "");

@@ -144,12 +144,18 @@ TEST(Escape, OneLongTrajectoryCanBeInterrupted) {
 
 TEST(Escape, ErrorsLeaveTheThreads) {
   System system = make_system(magnetic_square);
+  system.run.trajectories = 200;
   EscapeOptions options;
-  options.threads = 2;
-  options.records = [](const std::vector<TrajectoryRecord>&) {
-    throw InputError("the disk is full");
-  };
-  EXPECT_THROW(run_escape(system, options), InputError);
+  for (const int threads : {2, 8})
+    for (int k = 0; k < 12; ++k) {
+      int calls = 0;
+      options.threads = threads;
+      options.records = [&](const std::vector<TrajectoryRecord>&) {
+        if (++calls > k) throw InputError("the disk is full");
+      };
+      EXPECT_THROW(run_escape(system, options), InputError);
+      EXPECT_EQ(calls, k + 1);
+    }
   options.records = nullptr;
   system.initial.kind = InitialCondition::Kind::point;
   system.initial.position = {2.0, 2.0};

@@ -336,12 +336,20 @@ TEST(Section, WatchingChangesNoBit) {
   }
 }
 
+// Whichever block it is at which the disk is full: every thread ends, and nothing more is written.
 TEST(Section, ErrorsLeaveTheThreads) {
-  System system = with_section(ellipse, "on = \"x=0\"");
-  SectionOptions options;
-  options.threads = 3;
-  options.points = [](const std::vector<SectionPoint>&) { throw InputError("the disk is full"); };
-  EXPECT_THROW(run_section(system, options), InputError);
+  const System system = with_section(ellipse, "on = \"x=0\"\npoints = 2", 1000, 96);
+  for (const int threads : {1, 2, 3, 8})
+    for (int k = 0; k < 7; ++k) {
+      int calls = 0;
+      SectionOptions options;
+      options.threads = threads;
+      options.points = [&](const std::vector<SectionPoint>&) {
+        if (++calls > k) throw InputError("the disk is full");
+      };
+      EXPECT_THROW(run_section(system, options), InputError);
+      EXPECT_EQ(calls, k + 1);
+    }
 }
 
 // Nothing that happens after the last point belongs to the section.

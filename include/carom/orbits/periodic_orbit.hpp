@@ -28,7 +28,7 @@ struct OrbitHit {
 };
 
 /// By the eigenvalues of the tangent map of one period: on the unit circle, real and positive, real
-/// and negative; both +1 or both -1 within the error of the trace.
+/// and negative; both +1 or both -1 within the estimated error of the trace.
 enum class Stability : unsigned char { elliptic, hyperbolic, inverse_hyperbolic, parabolic };
 const char* name_of(Stability);
 
@@ -58,7 +58,8 @@ struct PeriodicOrbit {
   /// Its neighbours are periodic, too (bouncing balls): one member of a family of one length. As
   /// far as doubles tell: the equations of the orbit lose rank.
   bool family = false;
-  double position_error = 0.0, length_error = 0.0, trace_error = 0.0;  ///< bounds, to first order
+  double position_error = 0.0, length_error = 0.0;  ///< bounds, to first order
+  double trace_error = 0.0;                         ///< estimate
   geometry::Cell shift;  ///< on a lattice: cells between the start and the end of a period
   int copies = 1;  ///< different orbits that symmetry and reversal make of it, itself included
   SymmetryReduced reduced;

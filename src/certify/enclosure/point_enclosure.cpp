@@ -10,23 +10,25 @@ constexpr double guard_bits = 40.0;  ///< what rounding may stay below the error
 Interval point(const Ball& x) { return interval_of(x.midpoint()); }
 VectorOf<Interval> point(const BallVector& v) { return {point(v.x), point(v.y)}; }
 
-/// The least radius of curvature, nearly.
-double least_radius(const WallOf<Ball>& w) {
-  if (w.form == Form::circle) return std::sqrt(w.radius2.to_double());
-  const geometry::Vector p = near(w.along), q = near(w.across);  // of lengths 1/a and 1/b
-  const double u = dot(p, p), v = dot(q, q);
-  return std::sqrt(std::min(u, v)) / std::max(u, v);
-}
-
 }  // namespace
 
+double least_radius(const WallOf<Interval>& w) {
+  if (w.form == Form::circle) return sqrt(w.radius2).low;
+  // The rows have the lengths 1/a and 1/b, and the least radius is b^2/a for a >= b.
+  const Interval u = square(w.along.x) + square(w.along.y),
+                 v = square(w.across.x) + square(w.across.y);
+  const Interval least =
+      sqrt(Interval(std::min(u.low, v.low))) / Interval(std::max(u.high, v.high));
+  return least.low;
+}
+
 PointEnclosure::PointEnclosure(const Arena& arena, const BallState& start) : arena_(&arena) {
-  const Bound of_position = radius(start.position) * Bound(1.0 / arena.unit * 1.000001);
-  const Bound of_velocity = radius(start.velocity) * Bound(1.0 / arena.speed * 1.00001);
-  errors_.round(of_position + of_velocity, Bound());
+  const Bound of_position = radius(start.position) * inverse_of(arena.unit);
   state_.position = middle(start.position);
   state_.velocity = middle(start.velocity);
   frame_ = {{Interval(1.0), Interval(0.0)}, point(state_.velocity), arena.unit};
+  const Bound of_velocity = radius(start.velocity) * inverse_of(length(frame_.velocity));
+  errors_.round(of_position + of_velocity, Bound());
 }
 
 void PointEnclosure::fly(const Copy& copy, bool same, long bits) {
@@ -34,8 +36,7 @@ void PointEnclosure::fly(const Copy& copy, bool same, long bits) {
   const WallOf<Ball>& wall = arena_->wall(copy.wall);
   const WallOf<Interval>& fast_wall = arena_->fast_wall(copy.wall);
   const double unit = arena_->unit;
-  const Bound per_unit(1.000001 / unit), per_speed(1.00001 / arena_->speed),
-      per_time(1.000001 / arena_->time_unit);
+  const Bound per_unit = inverse_of(unit), per_time = inverse_of(arena_->time_unit);
   if (!(copy.cell == geometry::Cell{})) {
     const BallVector seen = state_.position - scene.translation(copy.cell);
     errors_.round(radius(seen) * per_unit, Bound());
@@ -49,6 +50,7 @@ void PointEnclosure::fly(const Copy& copy, bool same, long bits) {
   const Bound settled = settles ? settle(landing, wall, same) : Bound();
   const BallVector there = middle(landing.position), onwards = middle(landing.velocity);
   const FrameOf<Interval> after{tangent_of(fast_wall, point(there)), point(onwards), unit};
+  const Bound per_speed = inverse_of(length(after.velocity));
   TangentMap<Interval> map = tangent_map(fast_wall, P, v, arena_->fast.motion, same, frame_, after);
   if (!is_known(map)) {
     const BallState s = state(bits);
@@ -68,18 +70,18 @@ void PointEnclosure::fly(const Copy& copy, bool same, long bits) {
   if (settles) errors_.constrain(speed, rounding + turned * turned);
   if (same && wall.form == Form::segment) {
     // It is on the wall, so as far off as the midpoint is from the wall.
-    const geometry::Vector normal = near(wall.normal);
     errors_.constrain(off, size_of(dot(there - wall.from, wall.normal)) * per_unit *
-                               Bound(1.000001 / std::sqrt(dot(normal, normal))));
+                               inverse_of(length(fast_wall.normal)));
   }
   if (settles && same && wall.form != Form::segment) {
     // It is on the curve, too: a point near it, a along its tangent, is at most a^2/r off it
     // (for a < r/2), where r is the least radius of curvature.
-    const double radius_below = least_radius(wall) * 0.999999 / unit;
+    const Interval least = Interval(least_radius(fast_wall)) / Interval(unit);
+    const double radius_below = least.low;
     const Bound moved = errors_.size(along);
     if (moved.to_double() < 0.5 * radius_below &&
         errors_.size(off).to_double() < 0.5 * radius_below)
-      errors_.constrain(off, rounding + moved * moved * Bound(1.0 / radius_below));
+      errors_.constrain(off, rounding + moved * moved * inverse_of(radius_below));
   }
   ++hits_;
 }
@@ -111,12 +113,12 @@ Bound PointEnclosure::settle(LandingOf<Ball>& landing, const WallOf<Ball>& w, bo
     const Ball low = (Ball(1) - (square(X) + square(Y))) / length2;
     const Ball lift = half * first_bits(low);
     P = {P.x + lift * normal.x, P.y + lift * normal.y};
-    return changed + size_of(low) * size_of(sqrt(length2)) * Bound(1.000001 / arena_->unit);
+    return changed + size_of(low) * size_of(sqrt(length2)) * inverse_of(arena_->unit);
   }
   const Ball low = (w.radius2 - (square(e.x) + square(e.y))) * w.double_inverse;
   const Ball lift = half * half * first_bits(low);  // (r^2 - e^2)/(2 r^2)
   P = {P.x + lift * e.x, P.y + lift * e.y};
-  return changed + size_of(low) * Bound(std::sqrt(w.radius2.to_double()) * 1.000001 / arena_->unit);
+  return changed + size_of(low) * size_of(sqrt(w.radius2)) * inverse_of(arena_->unit);
 }
 
 BallState PointEnclosure::state(long) const {

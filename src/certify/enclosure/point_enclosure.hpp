@@ -6,6 +6,9 @@
 
 namespace carom::certify {
 
+/// At most the least radius of curvature of a circle or ellipse, whichever its numbers are.
+double least_radius(const WallOf<Interval>&);
+
 class PointEnclosure final : public StateEnclosure {
  public:
   PointEnclosure(const Arena&, const BallState& start);
@@ -23,7 +26,9 @@ class PointEnclosure final : public StateEnclosure {
   }
   Ball time() const override { return state_.time.widened(time_error()); }
   Bound position_error() const override { return Bound(arena_->unit) * errors_.of_position(); }
-  Bound velocity_error() const override { return Bound(arena_->speed) * errors_.of_velocity(); }
+  Bound velocity_error() const override {
+    return size_of(length(frame_.velocity)) * errors_.of_velocity();
+  }
   Bound time_error() const override { return Bound(arena_->time_unit) * errors_.of_time(); }
   Bound error() const override;
   double useful_bits() const override;

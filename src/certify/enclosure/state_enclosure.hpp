@@ -17,7 +17,8 @@ struct BallState {
 struct Arena {
   SceneOf<Ball> scene;
   SceneOf<Interval> fast;
-  double unit = 1.0, speed = 1.0, time_unit = 1.0;  ///< at least the size of each
+  double unit = 1.0, time_unit = 1.0;
+  double speed = 1.0;  ///< at least the speed, and that of midpoints
 
   const WallOf<Ball>& wall(int index) const { return scene.walls[static_cast<std::size_t>(index)]; }
   const WallOf<Interval>& fast_wall(int index) const {
@@ -61,11 +62,9 @@ inline Bound size_of(const Interval& x) {
   const double size = x.size();
   return std::isfinite(size) ? Bound(size) : Bound(HUGE_VAL);
 }
-inline Bound size_of(const Ball& x) {
-  Bound size;
-  arb_get_mag(size.raw(), x.raw());
-  return size;
-}
+inline Interval length(const VectorOf<Interval>& v) { return sqrt(square(v.x) + square(v.y)); }
+/// 1/x of a number that is not zero, rounded up.
+inline Bound inverse_of(const Interval& x) { return size_of(Interval(1.0) / x); }
 /// A correction by this ball, of which only the first bits count: short factors make products
 /// cheap.
 inline Ball first_bits(const Ball& x) {

@@ -30,7 +30,8 @@ struct Choice {
   Copy first, second;
 };
 
-/// Where walls are, roughly: a disc around each, in doubles and a little too large.
+/// Where walls are, in doubles: a disc around each that contains it, whichever numbers of its balls
+/// the true ones are.
 struct Whereabouts {
   struct Disc {
     geometry::Vector centre;
@@ -44,17 +45,36 @@ struct Whereabouts {
   double widest = 0.0;   ///< radius of a circle or ellipse, or half a segment
   double skew = 0.0;     ///< of the lattice vectors: 2 where they are at right angles
 
-  /// Part of a length that every rounding in the search for walls stays below. A handful of
-  /// operations is rounded by 2^-53 each, and dividing by the cell's area makes that worse by its
-  /// skew: 32 are far more than these.
-  static constexpr double rounding = 0x1p-48;
+  /// 32 u, u = 2^-53: the share of `skew` and of all lengths that the roundings of the search stay
+  /// below (1). Infinite where lattice, walls or field are not known well enough for that; then no
+  /// wall is looked for.
+  double rounding = 0x1p-48;
   /// How far the roundings of coordinates may carry the middle of piece k, and what is seen from
   /// it, off.
   double rounded_off(double from, double k) const {
     return rounding * skew * (from + size + (k + 2.0) * stretch);
   }
 };
-Whereabouts whereabouts_of(const BallTable&);
+/// `omega`: of flights.
+Whereabouts whereabouts_of(const BallTable&, const Ball& omega = Ball(0));
+// (1) u = 2^-53. Of a piece with middle q, and a disc, let d be q seen from the disc's centre, R
+// the reach, and L = from + size + (k + 2) stretch: |d| + R <= L, since |q| <= from + (k + 1/2)
+// stretch, |centre| + radius + stretch <= size and off <= stretch. Let a, b be the lattice vectors
+// and A, B their duals. The skew is s = |A||a| + |B||b| = 2 |a||b|/area >= 2. Vectors are known to
+// u/8 of themselves, and rounded: 1.13 u.
+// - q. On a Larmor circle the angle errs by 6 u of itself, sine and cosine by 2 u each, and
+// products,
+//   quotients and sums, in both components, by 10 u: less than 21 u L, which is 10.5 u s L. What
+//   the width of omega adds is pi/8 u L. On a line it is 7 u L. The sum that is `off` errs by 6 u
+//   stretch. Together: less than 14 u s L.
+// - The range of m (and of n). The area errs by 3.3 u |a||b| + u of itself, so A by (1.7 s + 3.2)
+// u,
+//   A . d by (1.7 s + 6.2) u |A||d|, and c_reach by (1.7 s + 6.2) u |A| R, both at most
+//   4.8 s u |A| L together. The ends of the range and R itself are rounded: 1.5 s u |A| L. So a
+//   disc seems displaced by less than 7 u s L.
+// - The distance. |m||a| + |n||b| <= s L, so the copy's place errs by 2.2 u s L, the differences by
+//   2 u s L, d by u s L/2, and the squares by 1.8 u s L: less than 7 u s L.
+// A copy is found if q and the larger one of the other two are allowed for: 21 u s L.
 
 /// Calls try_copy(copy) for every copy of a wall that comes near a piece of a flight with that
 /// middle; `off`: how far the piece may be from there.
@@ -159,7 +179,7 @@ class SceneOf {
       for (double k = 0.0; k < most_pieces; ++k) {
         if (!(off(k) <= where.stretch)) return unknown;
         near_piece(where, P0 + (k + 0.5) * step, off(k), try_copy);
-        const double end = (k + 1.0) * where.stretch / speed * (1.0 - Whereabouts::rounding);
+        const double end = (k + 1.0) * where.stretch / speed * (1.0 - where.rounding);
         if (seen_to(end)) return answer(first);
         if (seen_to_last(end)) return answer(first, true);
       }

@@ -147,6 +147,13 @@ class Ball {
   arb_t x_;
 };
 
+/// No number of the ball is larger in size.
+inline Bound size_of(const Ball& x) {
+  Bound size;
+  arb_get_mag(size.raw(), x.raw());
+  return size;
+}
+
 /// The root of a number that is known not to be negative: the part of its ball below zero is
 /// ignored.
 inline Ball sqrt(const Ball& a) {

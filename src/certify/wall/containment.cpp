@@ -80,8 +80,14 @@ Containment::Containment(const std::vector<WallLoop>& loops, const BallTable& ta
     return;
   }
   const Whereabouts where = whereabouts_of(table);
+  if (!std::isfinite(where.rounding)) {  // more bits will tell
+    verdict_ = Verdict::undecided;
+    return;
+  }
   const geometry::Vector P0{P.x.to_double(), P.y.to_double()};
-  const double off = off_by(P, P0) + where.rounded_off(std::sqrt(dot(P0, P0)), 0.0);
+  // Twice: the disc around a loop is at most twice as large as all coordinates of its walls, and
+  // its radius is rounded by 5 u.
+  const double off = off_by(P, P0) + 2.0 * where.rounded_off(std::sqrt(dot(P0, P0)), 0.0);
   if (!(off <= where.stretch)) {
     too_far_ = true;
     return;
@@ -96,7 +102,7 @@ Containment::Containment(const std::vector<WallLoop>& loops, const BallTable& ta
       radius = std::max(radius, std::sqrt(dot(d, d)) + disc(k).radius);
     }
     const geometry::Vector d = P0 - centre;
-    const double reach = (radius + off) * 1.000001;
+    const double reach = radius + off;
     const double c = dot(where.to_first, d), s = dot(where.to_second, d);
     const double c_reach = reach * std::sqrt(dot(where.to_first, where.to_first));
     const double s_reach = reach * std::sqrt(dot(where.to_second, where.to_second));

@@ -35,7 +35,7 @@ void orbit_columns(Table& table) {
              [](Orbit& o) -> double& { return o.position_error; });
   table.real("length_error", {"length", "Bound of the error of the length"},
              [](Orbit& o) -> double& { return o.length_error; });
-  table.real("trace_error", {"1", "Bound of the error of the trace"},
+  table.real("trace_error", {"1", "Estimated error of the trace"},
              [](Orbit& o) -> double& { return o.trace_error; });
   table.real("reduced_period", {"time", "Period of the part that symmetry leaves"},
              [](Orbit& o) -> double& { return o.reduced.period; });

@@ -11,9 +11,9 @@ namespace {
 using Vector = geometry::BasicVector<Real>;
 using LaneMasks = Masks<LanePack::lanes>;
 
-// A sign is certain if the number is beyond this share of its largest size: far more than what
-// rounding does (docs/developer/lanes.md). Where times are compared, joints keep farther from the
-// line.
+// A sign is certain if the number is beyond this share of its largest size: rounding does 2^-44 of
+// it at most, by the table in docs/developer/lanes.md#margins. Where times are compared, joints
+// keep farther from the line: the same table, "order of two times".
 constexpr double sign_margin = 0x1p-36;
 constexpr double joint_margin = 0x1p-21;
 
