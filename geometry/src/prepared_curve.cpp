@@ -42,6 +42,7 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
     return;
   }
   kind = exact_curve.metric.euclidean ? CurveKind::circle : CurveKind::ellipse;
+  landing = kind == CurveKind::circle ? LandingKind::circle : LandingKind::ellipse;
   centre = rounded(exact_curve.centre);
   centre_error = 2.0 * unit_roundoff * std::max(std::fabs(centre.x), std::fabs(centre.y));
   if (kind == CurveKind::circle) {
@@ -94,6 +95,49 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
     // The gradient has the rows as weights of X and Y, which lie on the unit circle.
     normal_bound = normal_error * 1.01 * (norm_1(first_axis) + norm_1(second_axis));
   }
+}
+
+void PreparedCurve::make_thin() {
+  if (kind == CurveKind::segment) return;
+  landing = LandingKind::thin;
+  const Vector a = parametrisation.a, b = parametrisation.b;
+  const double size = std::fabs(a.x) + std::fabs(a.y) + std::fabs(b.x) + std::fabs(b.y);
+  constexpr double u = unit_roundoff;
+  // A point is conic_point(u): 10u of both axes, and the sum u of itself; its origin another u.
+  point_error = u * (10.1 * size + 2.1 * extent);
+  // The normal is X b - Y a, turned: X and Y err by 6u of themselves, the axes by u, product and
+  // sum 2u; and its product with a velocity by 2u.
+  normal_bound = 11.1 * u * size;
+  normal_error = 1.42 * normal_bound / parametrisation.minor;
+}
+
+PreparedCurve::Frame PreparedCurve::frame_at(double u) const {
+  const Vector normal = left(direction_at(parametrisation, u));
+  return {point(u), normal, dot(normal, normal), 1.0};
+}
+
+/// Where the line through x along v enters the unit circle that the curve is mapped to, or leaves
+/// it if the domain lies inside. How far along the line x was found does not matter: it is
+/// the distance of the line from the centre that tells, so a hit lies on the side that the particle
+/// comes from. A line that misses the circle by rounding touches it.
+void PreparedCurve::arrive_by_line(Vector x, Vector v, Arrival& a) const {
+  const CurveFrame& f = parametrisation;
+  const Vector e = x - f.origin;
+  const Vector at{f.start + dot(f.along, e), dot(f.across, e)};
+  const Vector way{dot(f.along, v), dot(f.across, v)};
+  const double size = std::sqrt(dot(way, way));
+  const Vector ahead{way.x / size, way.y / size};
+  const double side = std::clamp(cross(ahead, at), -1.0, 1.0);
+  const double half = orientation * std::sqrt((1.0 - side) * (1.0 + side));
+  const Vector on = side * left(ahead) + half * ahead;
+  // On the unit circle itself.
+  geometry::Frame<double> circle;
+  circle.along = {1.0, 0.0};
+  circle.across = {0.0, 1.0};
+  circle.end = f.end;
+  circle.last = f.last;
+  a.u = conic_parameter(circle, on, first_parameter);
+  reflect_by(frame_at(a.u), v, a);
 }
 
 }  // namespace carom::geometry

@@ -10,12 +10,15 @@ namespace {
 
 constexpr double pi = 3.141592653589793;
 
-// Spacing of a triangular lattice, 0 for any other. sqrt(3)/2 is rounded in the table.
+// Spacing s of a triangular lattice, 0 for any other: the squares of three vectors are equal, but
+// for what rounding does to them. With u = 2^-53 each coordinate, such as sqrt(3)/2 s, was rounded
+// to a double and to the lattice's grid of 4u s: 3u s together, so a square errs by 2 sqrt(2) 3u
+// s^2, that of a sum or difference by twice as much; together less than 26u s^2, and 4u here.
 double triangular_spacing(const geometry::Lattice& lattice) {
   const geometry::Vector a = lattice.first, b = lattice.second;
   double squares[] = {dot(a, a), dot(b, b), dot(a + b, a + b), dot(a - b, a - b)};
   std::sort(std::begin(squares), std::end(squares));
-  return squares[2] - squares[0] <= 1e-14 * squares[0] ? std::sqrt(squares[0]) : 0.0;
+  return squares[2] - squares[0] <= 0x1p-48 * squares[0] ? std::sqrt(squares[0]) : 0.0;
 }
 
 // Machta and Zwanzig, Phys. Rev. Lett. 50, 1959 (1983): jumps between traps of area

@@ -27,10 +27,11 @@ using geometry::Vector;
 namespace {
 
 /// Tables from files were asked when they were built; this one may be made by hand.
-const Table& with_bent_arcs(const Table& table) {
+const Table& without_misplaced(const Table& table) {
+  const table::FlightSizes sizes = table::flight_sizes(table);
   for (const Wall& wall : table.walls)
-    if (const std::string fault = table::flat_arc(wall); !fault.empty())
-      throw InputError(Place{}, fault, table::bent_enough);
+    if (const table::Misplaced found = table::misplaced(wall, sizes); !found.fault.empty())
+      throw InputError(Place{}, found.fault, found.expected);
   return table;
 }
 
@@ -47,7 +48,7 @@ Table walls_of_flights(const Table& table, const Dynamics& dynamics) {
 class World::Implementation {
  public:
   Implementation(const Table& the_table, const Dynamics& how, DecisionOptions options)
-      : table(with_bent_arcs(the_table)),
+      : table(without_misplaced(the_table)),
         scales(the_table),
         dynamics(how),
         own_walls(std::make_shared<const Table>(walls_of_flights(table, dynamics))),

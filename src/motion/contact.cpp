@@ -171,7 +171,9 @@ class Guides {
     if (gap > 0.0 && (b >= 0.0 || discriminant <= 0.0)) return {0.0, 0.0};
     if (!(discriminant >= 0.0)) return {};  // no numbers
     const double root = std::sqrt(discriminant), late = (root - b) / v2;
-    const double rounding = 0x1p-40 * (root + std::fabs(b)) / v2;
+    // Of the last operations: the root, the difference and the quotients err by a unit of rounding
+    // each, gap by two; errors of b are times in which less than the margin is flown.
+    const double rounding = 8.0 * geometry::unit_roundoff * (root + std::fabs(b)) / v2;
     return {gap > 0.0 ? std::max(gap / (root - b) - rounding, 0.0) : 0.0, late + rounding};
   }
 
@@ -196,9 +198,11 @@ class Guides {
     for (double q = 1.0; q * fast <= 256.0 * slow && drift_ > 0.0; ++q) {
       const double whole = std::floor(q * (fast / slow) + 0.5);
       double missing = std::fabs(std::fma(q, fast / slow, -whole));
-      // Ratios of charges and masses come rounded. What would take 2^40 turns to show is not looked
-      // for.
-      missing = missing <= 0x1p-40 * whole ? 0.0 : missing + 0x1p-52 * whole;
+      // What is missing at a whole ratio of charges and masses is the rounding of both omegas and
+      // of their quotient, three units. So little moves the faster disc by 3u of its way, and
+      // phases omega t, rounded, are off by as much: `rounding_` counts 4u of both ways.
+      constexpr double u = geometry::unit_roundoff;
+      missing = missing <= 3.0 * u * whole ? 0.0 : missing + 2.0 * u * whole;
       const double period = q * (turn / slow), drift = turn * missing * radius / period;
       if (!(drift < drift_)) continue;
       period_ = period;

@@ -119,7 +119,7 @@ Table build_table(const TableSpec& spec) {
   if (spec.lattice) shapes::repeat(*spec.lattice, table);
   check_names(spec, table);
   if (!table.walls.empty()) shapes::check_region(spec, table);
-  shapes::refuse_flat_arcs(spec, table);
+  shapes::refuse_misplaced(spec, table);
   shapes::add_holes(spec, table);
   return table;
 }

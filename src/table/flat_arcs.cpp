@@ -1,5 +1,5 @@
-// Arcs that are too flat: a hit would lie off its wall by more than a small part of how far the arc
-// is bent.
+// Walls on which a hit would be misplaced by more than a small part of how far an arc is bent, or
+// of a radius or semi-axis.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -38,6 +38,12 @@ Flatness flatness(const Curve& curve, double offset, bool counterclockwise) {
   return {sagitta, u * (10.0 * frame.major + 3.0 * extent) / (frame.minor * sagitta)};
 }
 
+/// docs/physics/exactness.md, Thin walls.
+double share_of_landing(const CurveFrame& frame, const FlightSizes& sizes) {
+  constexpr double u = 0x1p-53;
+  return u * (10.0 * frame.major + 7.0 * sizes.farthest + 3.0 * sizes.longest) / frame.minor;
+}
+
 std::string shown(double x) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", x);
@@ -48,29 +54,46 @@ std::string shown(double x) {
 
 }  // namespace shapes
 
-std::string flat_arc(const Wall& wall) {
+Misplaced misplaced(const Wall& wall, const FlightSizes& sizes) {
+  if (std::holds_alternative<geometry::Segment>(wall.curve)) return {};
+  const geometry::CurveFrame frame = geometry::frame_of(wall.curve);
+  if (const double share = shapes::share_of_landing(frame, sizes); share > shapes::largest_share) {
+    const std::string fault =
+        frame.circular ? "the radius of '" + wall.name + "', " + shapes::shown(frame.minor) +
+                             ", is too small: hits would be misplaced by up to " +
+                             shapes::shown(share) + " of it"
+                       : "the ellipse of '" + wall.name + "' is too thin: with semi-axes of " +
+                             shapes::shown(frame.major) + " and " + shapes::shown(frame.minor) +
+                             ", hits would be misplaced by up to " + shapes::shown(share) +
+                             " of the smaller one";
+    return {fault,
+            "a share of 2^-16 at most: radii and semi-axes down to some 3e-10 of the larger one, "
+            "of the table's size and of its distance from the origin"};
+  }
   const auto* circular = std::get_if<geometry::CircularArc>(&wall.curve);
   const auto* elliptic = std::get_if<geometry::EllipticArc>(&wall.curve);
-  if (!circular && !elliptic) return "";
+  if (!circular && !elliptic) return {};
   const double in_metric = elliptic ? elliptic->ratio * dot(elliptic->axis, elliptic->axis) : 1.0;
   const shapes::Flatness found =
       circular
           ? shapes::flatness(wall.curve, circular->offset, circular->counterclockwise)
           : shapes::flatness(wall.curve, in_metric * elliptic->offset, elliptic->counterclockwise);
-  if (found.share <= shapes::largest_share) return "";
-  const geometry::CurveFrame frame = geometry::frame_of(wall.curve);
+  if (found.share <= shapes::largest_share) return {};
   const geometry::Vector chord =
       geometry::end_point(wall.curve) - geometry::start_point(wall.curve);
-  return "the arc '" + wall.name + "' is too flat: with a " +
-         (circular ? "radius of " : "semi-axis of ") + shapes::shown(frame.major) +
-         " over a chord of " + shapes::shown(std::sqrt(dot(chord, chord))) +
-         ", hits would lie off it by up to " + shapes::shown(found.share) + " of its sagitta";
+  return {"the arc '" + wall.name + "' is too flat: with a " +
+              (circular ? "radius of " : "semi-axis of ") + shapes::shown(frame.major) +
+              " over a chord of " + shapes::shown(std::sqrt(dot(chord, chord))) +
+              ", hits would lie off it by up to " + shapes::shown(found.share) + " of its sagitta",
+          "a straight line, or an arc bent enough for a share of 2^-16: a radius up to some 30000 "
+          "chords"};
 }
 
-void shapes::refuse_flat_arcs(const TableSpec& spec, const Table& table) {
+void shapes::refuse_misplaced(const TableSpec& spec, const Table& table) {
+  const FlightSizes sizes = flight_sizes(table);
   for (std::size_t k = 0; k < table.walls.size(); ++k)
-    if (const std::string fault = flat_arc(table.walls[k]); !fault.empty())
-      throw InputError(place_of_wall(spec, table, k), fault, bent_enough);
+    if (const Misplaced found = misplaced(table.walls[k], sizes); !found.fault.empty())
+      throw InputError(place_of_wall(spec, table, k), found.fault, found.expected);
 }
 
 }  // namespace carom::table

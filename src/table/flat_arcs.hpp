@@ -1,15 +1,19 @@
-// Arcs that are too flat for hits in doubles: docs/physics/exactness.md, Flat arcs.
+// Walls that are too flat, too thin or too small for hits in doubles: docs/physics/exactness.md,
+// Flat arcs and Thin walls.
 #pragma once
 
 #include <string>
 
 #include "carom/table/table.hpp"
+#include "table/thin_walls.hpp"
 
 namespace carom::table {
 
-/// Why a wall is too flat an arc; "" if it is not.
-std::string flat_arc(const Wall&);
-inline constexpr const char* bent_enough =
-    "a straight line, or an arc bent enough for a share of 2^-16: a radius up to some 30000 chords";
+/// Why hits would lie beside a wall, and what is expected there; no fault if they do not.
+struct Misplaced {
+  std::string fault;
+  const char* expected = "";
+};
+Misplaced misplaced(const Wall&, const FlightSizes&);
 
 }  // namespace carom::table

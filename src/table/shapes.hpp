@@ -113,8 +113,9 @@ void add_obstacles(const TableSpec&, Shape&);
 /// Turns the holes' arc lengths into parameters.
 void add_holes(const TableSpec& spec, Table& table);
 
-/// Are arcs bent enough for hits in doubles? docs/physics/exactness.md, Flat arcs.
-void refuse_flat_arcs(const TableSpec& spec, const Table& table);
+/// Are arcs bent enough, ellipses thick and circles large enough for hits in doubles?
+/// docs/physics/exactness.md, Flat arcs and Thin walls.
+void refuse_misplaced(const TableSpec& spec, const Table& table);
 /// Where a wall was written: its obstacle, corner, centre or piece if it has one, else the table.
 Place place_of_wall(const TableSpec& spec, const Table& table, std::size_t wall);
 

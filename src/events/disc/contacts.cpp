@@ -109,11 +109,25 @@ void Contacts::first_contact(int i, int j, const Time& now, const Time& until) {
   // The nearest copy is at most half a cell's diameter away: farther copies only as far as they are
   // reached.
   const Vector rest = separation(d, {}, near);
-  const double reach = (a.radius + b.radius + way) * (1.0 + 0x1p-40);
-  // Row by row along the shortest lattice vector p, as far as a row comes near enough: e = rest - m
-  // p - n q. What may lie in reach by rounding is asked too; the distance decides.
   const Vector p = lattice_->translation(along_), q = lattice_->translation(beyond_);
   const double p2 = dot(p, p), width = std::sqrt(p2), area = geometry::cross(p, q);
+  const double nearest_reach = 1.01 * (a.radius + b.radius + way);
+  // How many rows and places in a row, with room, and so what is rounded in the sums of multiples
+  // of the vectors as they are written: three units of each multiple, and of d eight of what it is
+  // made of.
+  const auto spread = [this](const Cell& c) {
+    return std::fabs(static_cast<double>(c.first)) * norm_1(lattice_->first) +
+           std::fabs(static_cast<double>(c.second)) * norm_1(lattice_->second);
+  };
+  const double rows_most = (norm_1(rest) + nearest_reach) * width / std::fabs(area) + 2.0,
+               most = (norm_1(rest) + nearest_reach + rows_most * norm_1(q)) / width + 2.0;
+  const double slack =
+      8.0 * geometry::unit_roundoff *
+      (norm_1(start.flight.separation) + (a.speed + b.speed) * std::fabs(since) + spread(near) +
+       rows_most * spread(beyond_) + most * spread(along_) + nearest_reach);
+  const double reach = a.radius + b.radius + way + slack;
+  // Row by row along the shortest lattice vector p, as far as a row comes near enough: e = rest - m
+  // p - n q. What may lie in reach by rounding is asked too; the distance decides.
   const double row = geometry::cross(p, rest) / area, rows = reach * width / std::fabs(area);
   for (double n = std::floor(row - rows); n <= row + rows + 1.0; ++n) {
     const Vector r = rest - n * q;

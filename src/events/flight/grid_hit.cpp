@@ -146,7 +146,7 @@ bool HitFinder::filtered_in_grid(const Flight& f, Ahead& ahead) {
     return ahead.kind != Ahead::Kind::none && ahead.kappa - error > kappa;
   };
   follow(f, visit, passed);
-  return decided;
+  return decided && !(ahead.piece >= 0 && t_.is_rough(f, ahead.piece));
 }
 
 void HitFinder::next_in_grid(const Flight& f, Ahead& ahead, DecisionCounts& counts) {

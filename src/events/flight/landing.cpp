@@ -24,11 +24,14 @@ int PieceTable::hole_at(const Flight& f, const Ahead& ahead, double u,
   const double error =
       parameter_error(*p.shape, origin.point, d1, ahead.kappa, error_of(f, ahead), origin.scale);
   const Wall& wall = table.walls[at(p.wall)];
-  bool decided = true;
+  // Where hits are found by the flight's line (PreparedCurve::arrive_by_line) a grazing one errs by
+  // more.
+  bool decided = !p.shape->thin() && (p.kind == CurveKind::segment || error < longest_step);
   int inside = -1;
   for (const int h : wall.holes) {
     const Hole& hole = table.holes[at(h)];
     const Sign first = sign_within(u - hole.from, error), last = sign_within(hole.to - u, error);
+    if (!decided) break;
     if (first == Sign::negative || last == Sign::negative) continue;
     if (first == Sign::positive && last == Sign::positive) {
       inside = h;

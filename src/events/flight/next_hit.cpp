@@ -74,6 +74,13 @@ struct Meeting {
   return Sign::undecided;
 }
 
+/// Is a flight from `origin` to a conic so long that hits on it were misplaced, had the curve not
+/// been made for that (table/thin_walls.hpp)? It is on a lattice, or from far off in the plane.
+bool is_far(const PreparedCurve& w, Vector origin, double start) {
+  const double way = norm_1(origin - w.centre), small = w.parametrisation.minor;
+  return 8.0 * unit_roundoff * way * (way + start + w.extent) > 0x1p-16 * small * small;
+}
+
 // Does a flight leave the domain through a piece, and where? One function for each kind of flight
 // and piece, at most one of them for each piece of a table. Positive: it does, at `c`. Negative: it
 // does not. Undecided: the bounds do not tell.
@@ -278,6 +285,10 @@ bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> 
       first.root.kappa = c.root.kappa;
     }
   }
+  if (t_.thin && best >= 0) [[unlikely]] {
+    const double duration = first.time / first.unit;
+    if (t_.is_rough(f, best) || (!larmor && !(duration > 0.0 && duration < HUGE_VAL))) return false;
+  }
   if constexpr (listed) {
     if (best >= 0) complete<larmor>(meeting(best), first);
     found_error = first.error;
@@ -323,6 +334,8 @@ Ahead HitFinder::exact_next(const Flight& f, const std::vector<int>& pieces) con
   if (ahead.kind == Ahead::Kind::joint) {
     const Vector d = t_.joints[at(ahead.piece)] - origin.point;
     ahead.kappa = dot(d, f.velocity) / dot(d, d);
+  } else if (t_.is_rough(f, ahead.piece)) {
+    ahead.kappa = first.kappa;
   } else if (t_.is_quartic(f, ahead.piece)) {
     Crossing c;
     const bool same = t_.first_exit(f, ahead.piece, origin, 1.0, c) == Sign::positive;
@@ -344,9 +357,16 @@ Ahead HitFinder::exact_next(const Flight& f, const std::vector<int>& pieces) con
     scale.inflation = 1.0;
     const QuadraticError error =
         quadratic_error(*t_.data[at(ahead.piece)].shape, origin.point, scale, stands);
-    const bool lost = f.omega == 0.0 ? !(ahead.duration > 0.0) || !std::isfinite(ahead.duration)
-                                     : !std::isfinite(ahead.kappa) ||
-                                           !far_root_certain(c.quadratic, error, stands);
+    // So does one from so far that the sign of the discriminant is not known in doubles: the
+    // filter, which asks it of closed curves, did not decide, and the hit would be anywhere on the
+    // curve.
+    const PreparedCurve& w = *t_.data[at(ahead.piece)].shape;
+    const bool hidden = w.closed && !stands && is_far(w, origin.point, norm_1(f.start)) &&
+                        !(c.root.discriminant > discriminant_error(c.quadratic, error));
+    const bool lost =
+        hidden || (f.omega == 0.0 ? !(ahead.duration > 0.0) || !std::isfinite(ahead.duration)
+                                  : !std::isfinite(ahead.kappa) ||
+                                        !far_root_certain(c.quadratic, error, stands));
     if (lost) ahead.kappa = first.kappa;
     if (f.omega == 0.0 && !lost) return ahead;
   }

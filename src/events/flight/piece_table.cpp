@@ -11,6 +11,7 @@
 #include "carom/geometry/lattice_copies.hpp"
 #include "events/flight/crossing.hpp"
 #include "events/flight/piece_table.hpp"
+#include "table/thin_walls.hpp"
 
 namespace carom::events {
 
@@ -64,9 +65,14 @@ PieceTable::PieceTable(const Table& the_table, DecisionOptions how, bool edges, 
 
 PieceTable::Preparation::Preparation(PieceTable& table_made, bool edges, bool complement)
     : made_(table_made), table_(table_made.table) {
+  const table::FlightSizes sizes = table::flight_sizes(table_);
   for (const Wall& wall : table_.walls) {
     const bool closed = is_closed(wall.curve);
     curves.emplace_back(complement ? reversed(wall.curve) : wall.curve);
+    if (sizes.is_thin(curves.back().parametrisation)) {
+      curves.back().make_thin();
+      made_.thin = true;
+    }
     end_normals.push_back(closed ? Vector{} : normal_at(wall.curve, end_parameter(wall.curve)));
     holed.push_back(wall.holes.empty() ? 0 : 1);
   }
@@ -246,6 +252,7 @@ auto PieceTable::Preparation::loops_that_reach() const -> std::vector<Images> {
 void PieceTable::Preparation::find_enclosure(bool complement) {
   if (complement || offsets.size() > 1) return;  // a made_.displaced wall reaches into the cell
   if (table_.crossing) return;                   // then a disc may made_.reach beyond the loop
+  if (made_.thin) return;                        // the exact stage gives the number
   std::vector<int> loop, others;
   for (int i = 0; i < static_cast<int>(data.size()); ++i) {
     const PreparedCurve& w = curves[at(data[at(i)].curve)];

@@ -104,6 +104,12 @@ struct PieceTable {
   bool is_quartic(const Flight& flight, int number) const {
     return flight.omega != 0.0 && piece(number).kind == geometry::CurveKind::ellipse;
   }
+  /// Is the number of a crossing with that piece the exact stage's? The formulas misplace hits on
+  /// thin walls, but those of flights that begin there.
+  bool is_rough(const Flight& flight, int number) const {
+    return thin && piece(number).shape->thin() &&
+           (!stands_on(flight, number) || is_quartic(flight, number));
+  }
   static bool stands_on(const Flight& flight, int piece) {
     return piece == flight.start_piece || piece == flight.start_previous;
   }
@@ -132,6 +138,7 @@ struct PieceTable {
   const DecisionOptions options;
   const bool cells;                                 ///< on a lattice
   bool displaced = false;                           ///< walls of other cells reach into this one
+  bool thin = false;                                ///< a wall is thin (table/thin_walls.hpp)
   int first_edge = 0;                               ///< of the cell, among the pieces
   double reach = 0.0;                               ///< bounds the l1 norm of every joint
   std::span<const geometry::PreparedCurve> curves;  ///< walls, then edges

@@ -16,11 +16,14 @@ namespace carom::geometry {
 inline constexpr double unit_roundoff = 0x1p-53;
 
 enum class CurveKind : unsigned char { segment, circle, ellipse };
+/// How a hit is put on a curve.
+enum class LandingKind : unsigned char { segment, circle, ellipse, thin };
 
 /// A curve with all that the filter's formulas and bounds take from it, computed once.
 struct PreparedCurve {
   CurveKind kind = CurveKind::segment;
   bool closed = false;
+  LandingKind landing = LandingKind::segment;
   double orientation = 1.0;  ///< +1: domain inside (counter-clockwise), -1: outside
   Vector from, to;
 
@@ -49,6 +52,12 @@ struct PreparedCurve {
 
   explicit PreparedCurve(const Curve& curve);
 
+  /// A conic so thin, or so small beside the flights that come to it, that a point put back on it
+  /// would be another one: hits are told by the parameter, and the normal is taken from that.
+  /// docs/physics/exactness.md, Thin walls.
+  bool thin() const { return landing == LandingKind::thin; }
+  void make_thin();
+
   /// Rounded image of the exact point at u, u in [0, end).
   Vector point(double u) const { return point_at(parametrisation, u); }
   /// A point on the curve with a normal n into the domain, of any length, and square = k |n|^2,
@@ -62,9 +71,10 @@ struct PreparedCurve {
   /// one wall do not add up their errors across it. The normal of a conic keeps its length, for
   /// dividing by its own square leaves no bias from hit to hit, as a rounded radius would.
   [[gnu::always_inline]] Frame settle(Vector x) const {
-    return kind == CurveKind::segment  ? settle_on_segment(x)
-           : kind == CurveKind::circle ? settle_on_circle(x)
-                                       : settle_on_ellipse(x);
+    return landing == LandingKind::segment   ? settle_on_segment(x)
+           : landing == LandingKind::circle  ? settle_on_circle(x)
+           : landing == LandingKind::ellipse ? settle_on_ellipse(x)
+                                             : frame_at(parameter(x));
   }
   /// Where a particle arrives at x with velocity v: the frame there, the parameter, and the factor
   /// of its reflection. The same numbers as one by one, with one question for the kind of curve;
@@ -75,21 +85,24 @@ struct PreparedCurve {
     double u = 0.0;
   };
   [[gnu::always_inline]] void arrive(Vector x, Vector v, Arrival& a) const {
-    if (kind == CurveKind::segment) {
+    if (landing == LandingKind::segment) {
       set(a, settle_on_segment(x));
       a.factor = 2.0 * fused_dot(v, a.normal);  // of a unit vector
       a.u = segment_parameter(parametrisation, a.point, first_parameter);
     } else {
-      if (kind == CurveKind::circle)
+      if (landing == LandingKind::circle)
         arrive_on_circle(x, v, a);
+      else if (landing == LandingKind::ellipse)
+        arrive_on_ellipse(x, v, a);
       else
-        reflect_by(settle_on_ellipse(x), v, a);
+        return arrive_by_line(x, v, a);
       a.u = conic_parameter(parametrisation, a.point, first_parameter);
     }
     if (!(a.u > first_parameter && a.u < last())) [[unlikely]]
       reflect_by(frame(a.u), v, a);  // put there, off the joints
   }
   Frame frame(double u) const {
+    if (thin()) return frame_at(u);
     const Frame f = settle(point(u));
     return {point(u), f.normal, f.square, f.k};
   }
@@ -102,7 +115,7 @@ struct PreparedCurve {
     const Vector d = x - centre;
     const double step = step_of_length(weight * d, d);
     if (!(std::fabs(step) < longest_step)) [[unlikely]]
-      return arrive_from_far(d, v, a);
+      return arrive_by_line(x, v, a);
     const Vector on = moved(x, step, d);
     a.point.x = on.x;
     a.point.y = on.y;
@@ -110,13 +123,18 @@ struct PreparedCurve {
     a.normal.y = -orientation * d.y;
     a.factor = -orientation * reflection_factor_on_circle(v, d, strength, step);
   }
-  /// On a circle much smaller than the distance that was flown rounding leaves the point farther
-  /// off than one step mends.
-  void arrive_from_far(Vector d, Vector v, Arrival& a) const {
-    const double scale = std::sqrt(0.5 / dot(weight * d, d));
-    const Vector near{scale * d.x, scale * d.y};
-    reflect_by(settle_on_circle(centre + near, near), v, a);
+  /// The frame of a conic at u, made of u alone.
+  Frame frame_at(double u) const;
+  [[gnu::always_inline]] void arrive_on_ellipse(Vector x, Vector v, Arrival& a) const {
+    const Vector e = x - centre;
+    const OnEllipse<double> on = on_ellipse(e, first_axis, second_axis);
+    if (!(std::fabs(on.step) < longest_step)) [[unlikely]]
+      return arrive_by_line(x, v, a);
+    reflect_by(settled_on_ellipse(x, e, on), v, a);
   }
+  /// On a curve that is thin, or much smaller than the distance that was flown: rounding leaves the
+  /// point farther off than one step mends.
+  void arrive_by_line(Vector x, Vector v, Arrival& a) const;
   [[gnu::always_inline]] static void reflect_by(const Frame& f, Vector v, Arrival& a) {
     set(a, f);
     a.factor = reflection_factor(v, f.normal, f.square, f.k);
@@ -140,7 +158,10 @@ struct PreparedCurve {
   }
   [[gnu::always_inline]] Frame settle_on_ellipse(Vector x) const {
     const Vector e = x - centre;
-    const OnEllipse<double> on = on_ellipse(e, first_axis, second_axis);
+    return settled_on_ellipse(x, e, on_ellipse(e, first_axis, second_axis));
+  }
+  [[gnu::always_inline]] Frame settled_on_ellipse(Vector x, Vector e,
+                                                  const OnEllipse<double>& on) const {
     return {moved(x, on.step, e), -orientation * on.gradient, dot(on.gradient, on.gradient), 1.0};
   }
 };
