@@ -267,7 +267,8 @@ def _decay(ax, fit):
     law = numpy.exp(-fit.rate * t) if exponential else t**-fit.exponent
     p = fit.amplitude * law + (fit.plateau if "plateau" in fit.model else 0.0)
     name, value = ("κ", fit.rate) if exponential else ("exponent", fit.exponent)
-    label = f"{fit.model}: {name} = {value:.4g} ± {fit.stderr:.1g}"
+    kind = f"local slope, {fit.model}" if fit.local_slope else fit.model
+    label = f"{kind}: {name} = {value:.4g} ± {fit.stderr:.1g}"
     if not fit.decided:
         label += "\n(undecided)"
     ax.plot(t, p, color=COLOURS[1], linewidth=1.5, zorder=3, label=label)

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/chi_squared.hpp"
+#include "carom/analysis/interval.hpp"
 #include "carom/base/elementary.hpp"
 
 namespace carom {
@@ -138,35 +139,52 @@ double p_value(const Seen& seen, double rate, double c, double stay, int fitted)
   return base::chi_squared_beyond(chi_squared, degrees);
 }
 
-/// How far the rates of the earlier and the later half of the escapes differ, in standard errors.
-double drift(const Seen& seen, bool truncated, Asked asked) {
+double square(double x) { return x * x; }
+
+/// The rates of the earlier and the later half of the escapes, fitted apart: independent.
+struct Halves {
+  std::size_t late_from;  ///< cell
+  double gone_early;
+  Rate early, late;
+  /// In standard errors.
+  double difference() const {
+    return std::fabs(early.value - late.value) /
+           std::sqrt(square(early.error) + square(late.error));
+  }
+};
+/// `truncated` as of most_likely_rate: that is all that a law with a plateau says of a part.
+std::optional<Halves> halves_of(const Seen& seen, bool truncated, Asked asked) {
   double gone = 0.0;
   std::size_t half = 0;
   while (half < seen.cells.size() && gone < 0.5 * seen.gone) gone += seen.cells[half++].count;
   // A single cell has no rate.
-  if (half < 2 || half + 2 > seen.cells.size()) return 0.0;
+  if (half < 2 || half + 2 > seen.cells.size()) return {};
   const double middle = seen.cells[half].u;
   const std::span<const Cell> all(seen.cells);
-  const auto early = most_likely_rate(all.first(half), 0.0, middle, 0.0, true, asked);
+  const auto early = most_likely_rate(all.first(half), 0.0, middle, seen.gone - gone + seen.there,
+                                      truncated, asked);
   const auto late = most_likely_rate(all.subspan(half), middle, seen.length - middle, seen.there,
                                      truncated, asked);
-  if (!early || !late) return std::numeric_limits<double>::infinity();
-  return std::fabs(early->value - late->value) /
-         std::sqrt(early->error * early->error + late->error * late->error);
+  constexpr double unlike = std::numeric_limits<double>::infinity();
+  if (!early || !late) return Halves{half, gone, {unlike, 1.0}, {0.0, 1.0}};
+  return Halves{half, gone, *early, *late};
 }
-
-double square(double x) { return x * x; }
 
 constexpr double least_p = 0.1;
 // One in a hundred of the true laws is called refuted.
 constexpr double refuted_p = 0.01;
 constexpr double largest_drift = 1.0;
+// What a power without a plateau drifts by is allowed for.
+constexpr double largest_drift_of_power = 1.5;
+// Halves of the window itself, once in twenty.
+constexpr double refuted_drift = 2.0;
 
 struct Candidate {
   Decay decay;
-  double drift;  ///< infinite where the test of the decay has failed anyway
+  double drift;  ///< infinite where the test of the decay has failed and no more is asked
 };
 bool may_describe(const Candidate& one) { return one.decay.p_value >= least_p; }
+bool plain_power(const Decay& decay) { return decay.law == DecayLaw::power && !decay.with_plateau; }
 
 /// `at_start`: share of all that is there at the start a of the window.
 std::optional<Candidate> fit(DecayLaw law, bool with_plateau, const Seen& seen, double a,
@@ -211,34 +229,53 @@ std::optional<Candidate> fit(DecayLaw law, bool with_plateau, const Seen& seen, 
   d.p_value = p_value(seen, d.rate, c, stay, 1);
   Candidate one{d, std::numeric_limits<double>::infinity()};
   // Two more fits tell whether it drifts.
-  if (may_describe(one)) one.drift = drift(seen, with_plateau, asked);
+  if (may_describe(one) || asked == Asked::evidence) {
+    const auto halves = halves_of(seen, with_plateau, asked);
+    one.drift = halves ? halves->difference() : 0.0;
+  }
   return one;
 }
 
-/// Where evidence is asked for, the best first.
-std::vector<Candidate> all_fits(std::span<const EscapeTimes::Bin> bins, double end, double there,
-                                double particles, Asked asked) {
+/// Bins as cells of u.
+Seen seen_in(std::span<const EscapeTimes::Bin> bins, double end, double there, DecayLaw law) {
   const double a = bins.front().from;
+  Seen seen;
+  const auto coordinate = [&](double t) {
+    return law == DecayLaw::exponential ? t - a : elementary::log(t / a);
+  };
+  seen.length = coordinate(end);
+  seen.there = there;
+  double until = std::numeric_limits<double>::quiet_NaN(), last = 0.0;  // of the bin before
+  for (const EscapeTimes::Bin& bin : bins) {
+    if (bin.count == 0) continue;
+    const double u = bin.from == until ? last : coordinate(bin.from);
+    until = std::min(bin.to, end);
+    last = coordinate(until);
+    seen.cells.push_back({u, last - u, static_cast<double>(bin.count)});
+    seen.gone += static_cast<double>(bin.count);
+  }
+  return seen;
+}
+
+/// What all windows of some data have in common.
+struct Data {
+  std::span<const EscapeTimes::Bin> bins;
+  double end, there, particles;
+  bool plateau;  ///< may one be fitted?
+};
+
+/// From a bin on. Where evidence is asked for, the best first.
+std::vector<Candidate> all_fits(const Data& data, std::size_t first, Asked asked) {
+  const auto bins = data.bins.subspan(first);
   std::vector<Candidate> found;
   for (const DecayLaw law : {DecayLaw::exponential, DecayLaw::power}) {
-    Seen seen;
-    const auto coordinate = [&](double t) {
-      return law == DecayLaw::exponential ? t - a : elementary::log(t / a);
-    };
-    seen.length = coordinate(end);
-    seen.there = there;
-    double until = std::numeric_limits<double>::quiet_NaN(), last = 0.0;  // of the bin before
-    for (const EscapeTimes::Bin& bin : bins) {
-      if (bin.count == 0) continue;
-      const double u = bin.from == until ? last : coordinate(bin.from);
-      until = std::min(bin.to, end);
-      last = coordinate(until);
-      seen.cells.push_back({u, last - u, static_cast<double>(bin.count)});
-      seen.gone += static_cast<double>(bin.count);
-    }
-    for (const bool with_plateau : {false, true})
-      if (const auto one = fit(law, with_plateau, seen, a, (seen.gone + there) / particles, asked))
+    const Seen seen = seen_in(bins, data.end, data.there, law);
+    const double at_start = (seen.gone + data.there) / data.particles;
+    for (const bool with_plateau : {false, true}) {
+      if (with_plateau && !data.plateau) continue;
+      if (const auto one = fit(law, with_plateau, seen, bins.front().from, at_start, asked))
         found.push_back(*one);
+    }
   }
   if (asked == Asked::description) return found;
   std::stable_sort(found.begin(), found.end(), [](const Candidate& x, const Candidate& y) {
@@ -255,7 +292,10 @@ constexpr double decisive = 2.995732273553991;
 // Starts that are tried lie a factor of 2^(1/4) apart.
 constexpr std::size_t between_starts = 16;
 
-bool describes(const Candidate& one) { return may_describe(one) && one.drift < largest_drift; }
+bool describes(const Candidate& one) {
+  return may_describe(one) &&
+         one.drift < (plain_power(one.decay) ? largest_drift_of_power : largest_drift);
+}
 
 double count_of(std::span<const EscapeTimes::Bin> bins) {
   double sum = 0.0;
@@ -263,34 +303,122 @@ double count_of(std::span<const EscapeTimes::Bin> bins) {
   return sum;
 }
 
+// A plateau is fitted where P falls more slowly than t to minus this power at the end.
+constexpr double slow = 0.5;
+
+/// Does the end of the data show a plateau by itself? An exponential that goes over into a power
+/// looks like one that goes over into a plateau; but there P falls on.
+bool shows_plateau(std::span<const EscapeTimes::Bin> bins, double end, double there) {
+  const double from = std::max(bins.front().from, 0.5 * end);
+  double gone = 0.0;
+  for (const EscapeTimes::Bin& bin : bins)
+    if (bin.from >= from) gone += static_cast<double>(bin.count);
+  const auto leave =
+      wilson_interval(static_cast<std::uint64_t>(gone), static_cast<std::uint64_t>(gone + there));
+  return leave.high < 1.0 - elementary::exp(-slow * elementary::log(end / from));
+}
+
 /// The latest window that the data allow.
 struct Window {
-  std::size_t first;            ///< bin, or the number of bins if there is no window
+  /// Bins: a law describes all from the first, and those of the window are fitted. The number of
+  /// bins if there is no window.
+  std::size_t described, first;
   std::vector<Candidate> fits;  ///< the best first
 };
 
-Window latest_window(std::span<const EscapeTimes::Bin> bins, double end, double there,
-                     double particles) {
-  const auto fits = [&](std::size_t first, Asked asked) {
-    return all_fits(bins.subspan(first), end, there, particles, asked);
-  };
+Window latest_window(const Data& data) {
+  const auto& bins = data.bins;
   for (std::size_t i = 0; i < bins.size(); i += between_starts) {
     const double escapes = count_of(bins.subspan(i));
     if (escapes < fewest) break;
-    if (std::ranges::none_of(fits(i, Asked::description), describes)) continue;
+    if (std::ranges::none_of(all_fits(data, i, Asked::description), describes)) continue;
     const double wanted = std::max(fewest, share_of_escapes * escapes);
     double left = escapes;
     std::size_t first = i;
     while (left - static_cast<double>(bins[first].count) >= wanted)
       left -= static_cast<double>(bins[first++].count);
     // A law may describe all of these and still not the last of them.
-    Window found{first, fits(first, Asked::evidence)};
+    Window found{i, first, all_fits(data, first, Asked::evidence)};
     if (found.fits.empty() || found.fits[0].decay.p_value >= refuted_p) return found;
   }
-  return {bins.size(), {}};
+  return {bins.size(), bins.size(), {}};
+}
+
+// Where a plateau is fitted from the same escapes, a power is seen over a decade.
+constexpr double beside_a_plateau = 10.0;
+// So that the window, a fifth of them, has left most of the beginning behind.
+constexpr double least_described = 1000.0;
+
+/// Is the rate that of the window, and no more? What a power differs by at first dies away as a
+/// power, too: it has to have held within the window, and before one that was chosen here.
+bool is_local(const Candidate& one, const Data& data, const Window& window, bool chosen) {
+  const Decay& decay = one.decay;
+  const double from = data.bins[window.first].from;
+  if (too_short_to_show(decay.law, decay.rate, from, data.end)) return true;
+  if (decay.law == DecayLaw::exponential) return false;
+  return (decay.with_plateau && data.end < beside_a_plateau * from) || one.drift > refuted_drift ||
+         (chosen && count_of(data.bins.subspan(window.described)) < least_described);
+}
+
+double mean_inverse_time(std::span<const Cell> cells, double a) {
+  double sum = 0.0, gone = 0.0;
+  for (const Cell& cell : cells) {
+    sum += cell.count * elementary::exp(-(cell.u + 0.5 * cell.width)) / a;
+    gone += cell.count;
+  }
+  return sum / gone;
+}
+
+/// A power of t + t0 with t0 unknown, to first order in t0 / t: what is described tells t0 by the
+/// change of the exponent within it, with an error that goes into those of the exponent and A.
+void allow_for_origin(Decay& power, const Data& data, const Window& window) {
+  const double a = data.bins[window.described].from;
+  const Seen seen = seen_in(data.bins.subspan(window.described), data.end, data.there, power.law);
+  const auto halves = halves_of(seen, false, Asked::evidence);
+  if (!halves || std::isinf(halves->early.value)) return;
+  const std::span<const Cell> cells(seen.cells);
+  const double start = data.bins[window.first].from;
+  const double u_start = elementary::log(start / a);
+  std::size_t used_from = 0;
+  while (used_from < cells.size() && cells[used_from].u + 0.5 * cells[used_from].width < u_start)
+    ++used_from;
+  const auto used = cells.subspan(used_from);
+  const double apart = mean_inverse_time(cells.first(halves->late_from), a) -
+                       mean_inverse_time(cells.subspan(halves->late_from), a);
+  const double at = mean_inverse_time(used, a);
+  // At t the exponent is a - s / t with s = a t0. Only differences within a bound are accepted: as
+  // if all of them were alike, the variance is a third of the bound's square.
+  constexpr double accepted = largest_drift_of_power * largest_drift_of_power / 3.0;
+  const double s = (halves->late.value - halves->early.value) / apart;
+  const double s_variance =
+      accepted * (square(halves->early.error) + square(halves->late.error)) / square(apart);
+  // Of rates of overlapping windows the covariance is rate^2 n / (n1 n2), n in both.
+  double gone = 0.0, both = 0.0;
+  for (const Cell& cell : used) {
+    gone += cell.count;
+    if (cell.u >= cells[halves->late_from].u) both += cell.count;
+  }
+  const double covariance =
+      accepted * square(power.rate) / gone / apart *
+      (both / (seen.gone - halves->gone_early) - (gone - both) / halves->gone_early);
+  const double lever = elementary::log(start), slope = at * lever + 1.0 / start;
+  const auto with = [](double error, double more) {
+    return std::sqrt(square(error) + std::max(more, 0.0));
+  };
+  const double log_error = with(power.amplitude_error / power.amplitude,
+                                2.0 * lever * slope * covariance + square(slope) * s_variance);
+  power.amplitude *= elementary::exp(slope * s);
+  power.amplitude_error = power.amplitude * log_error;
+  power.rate += at * s;
+  power.rate_error = with(power.rate_error, 2.0 * at * covariance + square(at) * s_variance);
 }
 
 }  // namespace
+
+bool too_short_to_show(DecayLaw law, double rate, double from, double to) {
+  constexpr double ln3 = 1.0986122886681098;
+  return law == DecayLaw::exponential ? rate * (to - from) < ln3 : to < 2.0 * from;
+}
 
 double odds(const Decay& one, const Decay& against) {
   return elementary::exp(one.evidence - against.evidence);
@@ -322,13 +450,19 @@ DecayFit fit_bins(std::vector<EscapeTimes::Bin> bins, std::uint64_t particles,
     result.why_none = window ? "fewer than 100 escapes in the window" : "fewer than 100 escapes";
     return result;
   }
-  const Window chosen = window ? Window{0, all_fits(bins, end, there, all, Asked::evidence)}
-                               : latest_window(bins, end, there, all);
+  const Data data{bins, end, there, all, shows_plateau(bins, end, there)};
+  const Window chosen =
+      window ? Window{0, 0, all_fits(data, 0, Asked::evidence)} : latest_window(data);
   if (chosen.first == bins.size()) {
     result.why_none = "no law describes the last 100 escapes";
     return result;
   }
-  for (const Candidate& one : chosen.fits) result.decays.push_back(one.decay);
+  for (const Candidate& one : chosen.fits) {
+    Decay decay = one.decay;
+    decay.local = is_local(one, data, chosen, !window);
+    if (!window && !decay.local && plain_power(decay)) allow_for_origin(decay, data, chosen);
+    result.decays.push_back(decay);
+  }
   if (result.decays.empty()) {
     result.why_none = "the escapes do not become rarer";
     return result;

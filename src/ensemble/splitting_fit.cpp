@@ -78,6 +78,8 @@ SplitDecay fit(const SplittingResult& result, const Logarithms& ln_p, DecayLaw l
       }).limit;
   decay.amplitude = elementary::exp(amplitude.value);
   decay.amplitude_error = decay.amplitude * amplitude.error;
+  decay.local =
+      too_short_to_show(law, decay.rate.limit.value, result.at[span.first], result.at[span.last]);
   decay.p_value = std::nan("");
   std::size_t middle = span.first + 1;
   while (middle + 1 < span.last && u(middle) < 0.5 * (u(span.first) + u(span.last))) ++middle;

@@ -29,6 +29,28 @@ TEST(Decay, OfTheCircleIsAPower) {
   EXPECT_NEAR(std::stod(value(fit, "exponent")), 1.0, 4 * std::stod(value(fit, "stderr")));
 }
 
+TEST(Decay, OfTheStadiumHasNoPlateau) {
+  const Shell shell;
+  const Outcome o = shell("$carom escape stadium --trajectories 2e5 --seed 2 --quiet --json");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(o.out.find("plateau"), std::string::npos) << fit_of(o.out);
+}
+
+TEST(Decay, OfAShortWindowIsALocalSlope) {
+  const Shell shell;
+  const std::string wide = circle + "--window 20:200", narrow = circle + "--window 20:30";
+  EXPECT_EQ(value(fit_of(shell(wide).out), "local_slope"), "false");
+  EXPECT_EQ(value(fit_of(shell(narrow).out), "local_slope"), "true");
+  const std::string text = shell("$carom escape circle --trajectories 2e5 --window 20:30").out;
+  EXPECT_NE(text.find("    local slope: a = "), std::string::npos) << text;
+  const std::string sweep =
+      shell(
+          "$carom escape circle --trajectories 2e5 --window 20:30 --sweep table.radius=list:1,1.1")
+          .out;
+  EXPECT_NE(sweep.find("power, local"), std::string::npos) << sweep;
+  EXPECT_NE(sweep.find("  local: the slope in a window"), std::string::npos) << sweep;
+}
+
 TEST(Decay, OfPartsIsThatOfTheWhole) {
   const Shell shell;
   const std::string report = shell(circle).out;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <stdexcept>
 #include <string>
 
 #include "random_tables.hpp"
@@ -102,6 +103,22 @@ TEST(SplittingFit, TakesTheReportsOfItsWindow) {
     if (decay.law == DecayLaw::exponential) {
       EXPECT_EQ(decay.rate.limit.value, rate.limit.value);
     }
+}
+
+// An exponential that falls to a third shows itself, and a power over a factor of two in time.
+TEST(SplittingFit, NamesALocalSlope) {
+  Generator generator(4);
+  const auto local = [&](const SplittingResult& result, DecayLaw law, double from, double to) {
+    for (const SplitDecay& decay : fit_decay(result, DecayWindow{from, to}).decays)
+      if (decay.law == law) return decay.local;
+    throw std::logic_error("no such law");
+  };
+  const SplittingResult falls = made_up(exponential, generator, 3000, 4);
+  EXPECT_TRUE(local(falls, DecayLaw::exponential, 5, 8));
+  EXPECT_FALSE(local(falls, DecayLaw::exponential, 5, 10));
+  const SplittingResult grows = made_up(power, generator, 3000, 4);
+  EXPECT_TRUE(local(grows, DecayLaw::power, 10, 19));
+  EXPECT_FALSE(local(grows, DecayLaw::power, 10, 20));
 }
 
 TEST(SplittingFit, SaysWhyThereIsNone) {

@@ -25,6 +25,9 @@ struct Decay {
   double rate = 0.0, rate_error = 0.0;  ///< 1/time, or the exponent of a power
   double amplitude = 0.0, amplitude_error = 0.0;
   double plateau = 0.0, plateau_error = 0.0;  ///< share of all that never leaves
+  /// The window is too short to show a law, or too few escapes lead to it: the rate is the slope in
+  /// this window, and no more.
+  bool local = false;
   /// How likely counts are that lie as far from this law as those found (Pearson's chi squared).
   double p_value = 0.0;
   /// Logarithm of the likelihood less half the logarithm of the number of escapes for each number
@@ -35,6 +38,10 @@ struct Decay {
 std::string name_of(const Decay&);
 /// How many times as likely the data are under one law as under another, by their evidence.
 double odds(const Decay& one, const Decay& against);
+
+/// Is a window too short to show a law by itself? An exponential of this rate is seen by how far it
+/// falls, to a third; a power by how the time grows, to twice its start.
+bool too_short_to_show(DecayLaw law, double rate, double from, double to);
 
 struct DecayFit {
   double from = 0.0, to = 0.0;  ///< the window
@@ -53,7 +60,7 @@ using DecayWindow = std::pair<double, double>;
 /// earliest start is sought at which a law describes all that follows and its rate does not change
 /// between the earlier and the later half of the escapes; the fit takes the last 0.2 of these
 /// escapes, so that what was too weak to be seen has died away further. A window is widened to
-/// whole bins.
+/// whole bins. A plateau is fitted only where the end of the data shows it by itself.
 DecayFit fit_decay(const EscapeTimes& times, std::uint64_t particles, std::uint64_t still_there,
                    double until, std::optional<DecayWindow> window = {});
 

@@ -17,6 +17,7 @@ struct SplitDecay {
   DecayLaw law = DecayLaw::exponential;
   Extrapolated rate;  ///< 1/time, 1/hit or the exponent of a power
   double amplitude = 0.0, amplitude_error = 0.0;
+  bool local = false;  ///< the slope in this window, which is too short to show a law
   /// How likely the rates before and after some report within differ by as much, if the law holds
   /// (Student's t, paired by repetitions; the least p-value times the number of reports within); NaN
   /// with less than three reports.

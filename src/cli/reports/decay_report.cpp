@@ -22,8 +22,14 @@ std::string formula_of(DecayLaw law, bool with_plateau, const char* variable) {
          (with_plateau ? " + P_infinity" : "");
 }
 
+/// The name of a rate, and whether it is one of the window alone.
+std::string rate_name(DecayLaw law, bool local) {
+  return fmt::format("    {}{}", local ? "local slope: " : "",
+                     law == DecayLaw::exponential ? "kappa" : "a");
+}
+
 std::string numbers_of(const Decay& decay) {
-  std::string text = fmt::format("    {} = {}", decay.law == DecayLaw::exponential ? "kappa" : "a",
+  std::string text = fmt::format("{} = {}", rate_name(decay.law, decay.local),
                                  with_error(decay.rate, decay.rate_error));
   text += fmt::format(", A = {}", with_error(decay.amplitude, decay.amplitude_error));
   if (decay.with_plateau)
@@ -35,6 +41,7 @@ Json json_of(const Decay& decay) {
   Json json = Json::object().set("model", name_of(decay));
   json.set(decay.law == DecayLaw::exponential ? "rate" : "exponent", decay.rate)
       .set("stderr", decay.rate_error)
+      .set("local_slope", decay.local)
       .set("amplitude", decay.amplitude)
       .set("amplitude_stderr", decay.amplitude_error);
   if (decay.with_plateau)
@@ -106,6 +113,7 @@ Json json_of(const SplitDecay& decay) {
       .set("low", rate.low())
       .set("high", rate.high())
       .set("extrapolation", rate.extrapolation)
+      .set("local_slope", decay.local)
       .set("amplitude", decay.amplitude)
       .set("amplitude_stderr", decay.amplitude_error)
       .set("p_value", decay.p_value);
@@ -134,9 +142,8 @@ std::string split_fit_text(const SplitFit& fit, const char* variable) {
   for (std::size_t i = 0; i < shown; ++i) {
     const SplitDecay& decay = fit.decays[i];
     const Extrapolated& rate = decay.rate;
-    text += fmt::format("  {}\n    {} = {}, extrapolation {:.1e}\n    A = {}",
-                        formula_of(decay.law, false, variable),
-                        decay.law == DecayLaw::exponential ? "kappa" : "a",
+    text += fmt::format("  {}\n{} = {}, extrapolation {:.1e}\n    A = {}",
+                        formula_of(decay.law, false, variable), rate_name(decay.law, decay.local),
                         with_error(rate.limit.value, rate.limit.error), rate.extrapolation,
                         with_error(decay.amplitude, decay.amplitude_error));
     if (!std::isnan(decay.p_value))

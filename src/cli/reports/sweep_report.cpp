@@ -118,7 +118,9 @@ std::string cell(const Json& report, const Shown& shown) {
       const Json* decided = report.find("fit.decided");
       const bool doubtful =
           decided && !decided->is_true() && quantity.value == std::string("fit.model");
-      return found.text + (doubtful ? " ?" : "");
+      const Json* local = report.find("fit.local_slope");
+      const bool here = local && local->is_true() && quantity.value == std::string("fit.model");
+      return found.text + (here ? ", local" : "") + (doubtful ? " ?" : "");
     }
     if (!std::isnan(found.error)) return cli::with_error(found.value, found.error);
     const bool whole =
@@ -342,12 +344,15 @@ std::string sweep_text(const SweepResult& result) {
     text += fmt::format("({}: {} of {})\n", result.status, result.rows.size(),
                         counted(result.plan.systems.size(), "value"));
   if (!result.rows.empty()) text += "\n" + table(result);
-  const bool doubtful =
-      std::any_of(result.rows.begin(), result.rows.end(), [](const SweepRow& row) {
-        const Json* decided = row.report.find("fit.decided");
-        return decided && !decided->is_true();
-      });
-  if (doubtful) text += "  ?: the data do not tell this law from the next\n";
+  const auto any = [&](const char* path, bool wanted) {
+    return std::any_of(result.rows.begin(), result.rows.end(), [&](const SweepRow& row) {
+      const Json* found = row.report.find(path);
+      return found && found->is_true() == wanted;
+    });
+  };
+  if (any("fit.local_slope", true))
+    text += "  local: the slope in a window that is too short to show a law\n";
+  if (any("fit.decided", false)) text += "  ?: the data do not tell this law from the next\n";
   if (const std::string why = reasons(result); !why.empty()) text += "\n" + why;
   text += fmt::format("\ncomputed in {:.3g} s\n", sum_of(result, "seconds"));
   if (!result.archive.empty()) text += fmt::format("archive: {}\n", result.archive);
