@@ -220,7 +220,8 @@ class Lyapunov(Result):
     """Lyapunov exponents and chaotic orbits.
 
     ``lambda_`` (value, stderr: 1/time; the largest first) and per_collision (value, stderr: a hit) are
-    lists; chaotic_share (value, stderr, hidden), chaotic_lambda, regularity, window (time). Of an open
+    lists, of zeros where `law` is "linear", None where `reason` says why; chaotic_share (value, stderr,
+    low, high, hidden; None where `no_share` says why), chaotic_lambda, regularity, window (time). Of an open
     table they are those of the orbits that never leave, and repeller says how they were measured. Array:
 
     distribution  (number of bins,): from, to (1/time), count: finite-time exponents of the orbits
@@ -246,7 +247,8 @@ class Lyapunov(Result):
         "else NaN.",
         """else NaN;
         lambda (1/time): its finite-time exponent, NaN where it ended before it was looked at; sali:
-        the angle between two deviations; regularity: 0 regular, 1 chaotic, 2 undecided.""",
+        the angle between two deviations; regularity: 0 linear
+        growth (regular where `regularity.regular` is not 0), 1 chaotic, 2 undecided.""",
     )
 
     def _summary(self):

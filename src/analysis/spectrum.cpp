@@ -46,7 +46,7 @@ void SpectrumSums::merge(const SpectrumSums& other) {
 
 SpectrumEstimate estimate_of(const SpectrumSums& sums) {
   SpectrumEstimate e;
-  for (const GrowthSums& one : sums.sums()) e.exponents.push_back(estimate_of(one).per_time);
+  for (const GrowthSums& one : sums.sums()) e.exponents.push_back(mean_growth_of(one).per_time);
   if (e.exponents.empty()) return e;
   e.entropy = e.exponents.back();
   e.exponents.pop_back();

@@ -100,6 +100,46 @@ VanishingExponents vanishing_exponents(const System& system) {
   return v;
 }
 
+std::string why_all_are_regular(const System& system) {
+  if (act_on_each_other(system)) return {};
+  const std::vector<Wall>& walls = system.table->walls;
+  const ForceField none, &forces = system.dynamics.forces ? *system.dynamics.forces : none;
+  const bool free = forces.empty(),
+             straight_flights =
+                 free && std::all_of(system.particles.begin(), system.particles.end(),
+                                     [](const Particle&p) { return p.omega == 0.0; });
+  const auto is_straight = [](const Wall& wall) {
+    return std::holds_alternative<geometry::Segment>(wall.curve);
+  };
+  if (straight_flights && !walls.empty() && std::all_of(walls.begin(), walls.end(), is_straight))
+    return "all walls are straight";
+  if (straight_flights && walls.size() == 1 && !system.table->lattice &&
+      std::holds_alternative<geometry::Ellipse>(walls.front().curve))
+    return "between the hits of an ellipse the product of the angular momenta about its foci is "
+           "conserved";
+  if ((!walls.empty() || !free) && is_round(*system.table, forces))
+    return "energy and angular momentum are conserved";
+  return {};
+}
+
+LyapunovEstimate estimate_of(const System& system, const LyapunovResult& result) {
+  // A start that is chosen may lie on an unstable orbit.
+  using Kind = InitialCondition::Kind;
+  const Kind kind = system.initial.kind;
+  const bool chosen =
+      kind == Kind::point || kind == Kind::list || kind == Kind::line || kind == Kind::birkhoff;
+  LyapunovEstimate e =
+      estimate_of(result.growth, !why_all_are_regular(system).empty() &&
+                                     (!chosen || result.growth.totals().chaotic == 0));
+  if (!system.run.spectrum) return e;
+  // The exponent is the first of the spectrum, whose report tells linear growth.
+  const LyapunovEstimate means = mean_growth_of(result.growth);
+  e.law = LyapunovEstimate::Law::exponential;
+  e.per_time = means.per_time, e.per_hit = means.per_hit;
+  e.would_show = e.regular_bias = 0.0;
+  return e;
+}
+
 bool LyapunovResult::add(const LyapunovResult& other) {
   if (!add_common(other)) return false;
   repeller.reset();  // it is the whole ensemble's

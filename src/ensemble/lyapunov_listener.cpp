@@ -58,6 +58,7 @@ void LyapunovListener::begin(const Trajectory& t) {
     mine.growth.hits.assign(blocks_, 0);
     mine.growth.regularity = Regularity::undecided;
     mine.growth.look = 0;
+    mine.growth.flights = mine.pace * marks_.back().time;
     mine.frame.clear();
   }
 }

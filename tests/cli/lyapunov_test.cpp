@@ -34,6 +34,40 @@ TEST(Lyapunov, PrintsItsKeysAndOneDigest) {
   EXPECT_TRUE(shell.files().empty());
 }
 
+// A short run calls no orbit regular, and says what it does not know in place of a number.
+TEST(Lyapunov, SaysWhatAShortRunDoesNotTell) {
+  const Shell shell;
+  const std::string few = "$carom lyapunov stadium --closed --trajectories 1000 --json --t-max ";
+  const Outcome brief = shell(few + "20");
+  EXPECT_EQ(brief.status, 0) << brief.err;
+  EXPECT_EQ(json_value(brief.out, "chaotic_share"), "null");
+  EXPECT_NE(json_value(brief.out, "no_share"), "");
+  EXPECT_NE(json_value(brief.out, "regularity").find("\"regular\": 0"), std::string::npos);
+  EXPECT_NE(json_value(brief.out, "lambda"), "null");
+  const Outcome none = shell(few + "4");
+  EXPECT_EQ(none.status, 0) << none.err;
+  EXPECT_EQ(json_value(none.out, "lambda"), "null");
+  EXPECT_NE(json_value(none.out, "reason").find("too short"), std::string::npos);
+  const Outcome told = shell(few + "400 -o told.h5");
+  EXPECT_NE(json_value(told.out, "chaotic_share").find("\"high\": 1"), std::string::npos);
+  EXPECT_EQ(json_value(told.out, "no_share"), "");
+  EXPECT_EQ(json_value(shell("$carom lyapunov --resume told.h5 --json").out, "chaotic_share"),
+            json_value(told.out, "chaotic_share"));
+}
+
+// Deviations in regular tables grow linearly: ln t / t is no exponent.
+TEST(Lyapunov, OfRegularTablesIsZero) {
+  const Shell shell;
+  for (const std::string table : {"circle", "ellipse-magnetic --set field.B=0"}) {
+    const std::string typed =
+        "$carom lyapunov " + table + " --closed --trajectories 100 --t-max 50 ";
+    const Outcome json = shell(typed + "--json");
+    EXPECT_EQ(json_value(json.out, "law"), "linear") << json.err;
+    EXPECT_NE(json_value(json.out, "lambda").find("\"value\": 0"), std::string::npos);
+    EXPECT_NE(shell(typed).out.find("lambda = 0: "), std::string::npos);
+  }
+}
+
 TEST(Lyapunov, PartsOnTheDiskAddUpToTheWhole) {
   for (const char* starts : {"", "--set initial.kind=sobol "}) {
     const Shell shell;

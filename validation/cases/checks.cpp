@@ -372,7 +372,7 @@ Check check_exponent(const System& system, Exponent what, Estimate expected,
   const LyapunovResult result = run_lyapunov(system, how);
   note_run(c, result);
   if (c.complete) {
-    const LyapunovEstimate e = estimate_of(result.growth);
+    const LyapunovEstimate e = estimate_of(system, result);
     const Estimate found = what == Exponent::per_time  ? e.per_time
                            : what == Exponent::per_hit ? e.per_hit
                                                        : e.chaotic_share;

@@ -42,10 +42,12 @@ class GrowingHistogram {
   std::vector<std::uint64_t> counts_;
 };
 
-/// Regular or chaotic, by how far two deviations have turned into one direction (SALI, in two
+/// How two deviations have grown, by how far they have turned into one direction (SALI, in two
 /// dimensions GALI_2): their area is kept, so its logarithm is minus that of the product of their
-/// lengths.
-enum class Regularity : unsigned char { regular, chaotic, undecided };
+/// lengths. `linear`: no more than on an invariant curve. Such an orbit is regular, or it is
+/// chaotic and has not shown it: only the whole ensemble tells which
+/// (LyapunovEstimate::tells_regular).
+enum class Regularity : unsigned char { linear, chaotic, undecided };
 /// `spread`: the logarithm of that product, which was 1 at the start; after that many mean flights,
 /// or other natural times. On an invariant curve it grows as 2 ln flights, and in the chaotic sea
 /// as twice the exponent times the time.
@@ -59,6 +61,7 @@ struct OrbitGrowth {
   std::vector<std::uint64_t> hits;                ///< in each
   Regularity regularity = Regularity::undecided;  ///< at the window's end
   std::size_t look = 0;                           ///< the first look at which it was chaotic
+  double flights = 0.0;  ///< mean flights, or other natural times, until the window's end
 };
 
 /// Sums over orbits that were followed to the end of the window.
@@ -68,10 +71,12 @@ class GrowthSums {
   static constexpr std::size_t looks = 8;
   /// Orbits, or blocks of orbits, that an error needs: it is then known to a fifth.
   static constexpr std::uint64_t enough_blocks = 16;
+  /// Fewer orbits than these have blocks, so that this many numbers at least tell how the error
+  /// grows with the length of blocks.
+  static constexpr std::uint64_t few_orbits = 64, wanted_blocks = 1024;
 
   GrowthSums() = default;
-  /// Where there are few orbits, the window is divided into blocks, a power of two, so that at
-  /// least 64 numbers tell the error.
+  /// Where there are few orbits, the window is divided into blocks, a power of two.
   /// `quasi_random`: errors come from replicates of the starts, whatever the number of orbits.
   GrowthSums(TimeWindow, std::uint64_t orbits, bool quasi_random = false);
 
@@ -91,10 +96,11 @@ class GrowthSums {
     ExactSum growth, product, hits;  ///< squares, and growth times hits
   };
   struct Totals {
-    std::uint64_t orbits = 0, chaotic = 0, regular = 0;
+    std::uint64_t orbits = 0, chaotic = 0, linear = 0;
     std::array<std::uint64_t, looks> chaotic_at{};  ///< orbits found chaotic at each look
     ExactSum growth, hits;
     ExactSum chaotic_growth, chaotic_squares;  ///< of those that are chaotic
+    ExactSum flights;                          ///< until the window's end; not of replicates
     std::vector<Squares> levels;
     GrowingHistogram distribution;  ///< of the growth over the window
   };
@@ -114,8 +120,14 @@ class GrowthSums {
 
 /// What the sums say. Numbers are NaN where nothing was followed to the window's end.
 struct LyapunovEstimate {
-  Estimate per_time, per_hit;
-  Estimate chaotic;  ///< per time, of the chaotic orbits alone
+  /// How the deviations of the ensemble grow. `linear`: those of no orbit grow faster than on
+  /// regular orbits, and the exponent is 0. `unknown`: the run is too short to tell linear growth
+  /// from an exponential one, and there is no exponent.
+  enum class Law { exponential, linear, unknown };
+  Law law = Law::exponential;
+  /// Where the law is linear by the data: a larger exponent would have shown. 0: the law is known.
+  double would_show = 0.0;
+  Estimate per_time, per_hit;  ///< regular orbits have the exponent 0
   /// The error by blocks of growing length: it grows as long as they are shorter than what an orbit
   /// remembers.
   struct BlockError {
@@ -124,15 +136,25 @@ struct LyapunovEstimate {
     double error;
   };
   std::vector<BlockError> block_errors;
-  bool long_enough = true;  ///< false: the errors of the last lengths still grow
-  /// Share of chaotic orbits, those included that stick to islands and have not shown yet, as far
-  /// as they can be told: `hidden` of all, from how the numbers found fall from one doubling of the
-  /// time to the next.
+  bool long_enough = true;  ///< false: the errors grow with the length of the blocks
+  /// Time after which an orbit of the chaotic sea is found chaotic; NaN where none was.
+  double waiting_time = 0.0;
+  bool tells_regular = false;  ///< may orbits whose growth is linear be called regular?
+  /// Share of chaotic orbits, those included that stick to islands and have not shown yet: `hidden`
+  /// of all, from those that were found late. Its error is the larger side of the interval of 95 %
+  /// over 1.96. NaN where the run is too short, or no orbit is chaotic and the law is not known.
   Estimate chaotic_share;
-  double hidden = 0.0;
-  bool settled = true;  ///< false: so many came late that the share may still grow much
+  Interval share_interval;
+  double hidden = 0.0, hidden_error = 0.0;
+  Estimate chaotic;  ///< per time, of the chaotic orbits alone; NaN without a share
+  /// By how much the exponent is too large if the orbits that have not shown chaos are regular.
+  double regular_bias = 0.0;
 };
-LyapunovEstimate estimate_of(const GrowthSums&);
+/// `regular`: do conservation laws or the walls make all deviations grow linearly
+/// (why_all_are_regular)?
+LyapunovEstimate estimate_of(const GrowthSums&, bool regular = false);
+/// Of these the means over all orbits with their errors, whatever the law of growth.
+LyapunovEstimate mean_growth_of(const GrowthSums&);
 
 /// Points of the finite-time distribution: a share of orbits whose exponent lies in a bin.
 struct ExponentBin {
@@ -140,5 +162,8 @@ struct ExponentBin {
   std::uint64_t count;
 };
 std::vector<ExponentBin> distribution_of(const GrowthSums&);
+/// Below which a share `q` of the orbits lies, exponents spread evenly within each bin; NaN without
+/// orbits.
+double quantile_of(const std::vector<ExponentBin>&, double q);
 
 }  // namespace carom

@@ -49,6 +49,11 @@ struct VanishingExponents {
   std::vector<std::string> laws;
 };
 VanishingExponents vanishing_exponents(const System&);
+/// Why the deviations of all orbits grow linearly, but for orbits that no random start meets, as a
+/// phrase: walls that are straight, or enough conserved quantities. "": it is not known.
+std::string why_all_are_regular(const System&);
+/// What the sums of a run say of its system.
+LyapunovEstimate estimate_of(const System&, const LyapunovResult&);
 /// Particles whose spectrum is computed: the work grows as the cube of their number.
 inline constexpr std::size_t most_particles_of_spectrum = 128;
 /// Times between which the growth is taken: run.window, or the last four fifths of the run.

@@ -25,7 +25,7 @@ struct TrajectoryRecord {
   std::uint64_t index = 0;
   double x = 0, y = 0, vx = 0, vy = 0;  ///< start, unwrapped
   Fate fate = Fate::survived;
-  /// Of exponents, as Regularity: 0 regular, 1 chaotic, 2 undecided.
+  /// Of exponents, as Regularity: 0 linear, 1 chaotic, 2 undecided.
   unsigned char regularity = 2;
   std::uint16_t unused = 0;  // no byte of a record is without a value
   std::int32_t hole = -1;    ///< index into hole_names()

@@ -44,8 +44,13 @@ bool of_repeller(const LyapunovResult& result) {
 }
 
 // Why there is no exponent, as a phrase; "" where there is one.
-std::string no_exponent(const System& system, const LyapunovResult& result) {
+std::string no_exponent(const System& system, const LyapunovResult& result,
+                        const LyapunovEstimate& e) {
   if (const auto error = why_nothing(system, result)) return error->problem();
+  if (of_repeller(result)) return {};
+  if (e.law == LyapunovEstimate::Law::unknown)
+    return "deviations have grown no more than linearly, as on regular orbits, and the run is too "
+           "short to tell: take a longer one (--t-max)";
   if (result.growth.totals().orbits > 0 || result.repeller) return {};
   if (result.trajectories == 0) return "no trajectory was followed";
   return fmt::format("all {} ended before t = {:.6g}, the end of the window",
@@ -59,6 +64,28 @@ std::string why_no_error(const GrowthSums& sums, const LyapunovEstimate& e) {
   const auto without = std::count_if(sums.parts().begin(), sums.parts().end(),
                                      [](const auto& part) { return part.orbits == 0; });
   return no_errors(without, "followed no orbit to the end of the window");
+}
+
+// Why there is no share of chaotic orbits, as a phrase; "" where there is one.
+std::string why_no_share(const GrowthSums& sums, const LyapunovEstimate& e) {
+  using Law = LyapunovEstimate::Law;
+  if (sums.totals().orbits == 0 || std::isfinite(e.chaotic_share.value)) return {};
+  const double end = sums.window().to;
+  if (sums.totals().chaotic > 0)
+    return fmt::format(
+        "a chaotic orbit shows after t = {:.3g} or later, and only runs of three times that tell "
+        "regular orbits from chaotic ones (--t-max {:.0f})",
+        e.waiting_time, std::ceil(3.2 * e.waiting_time));
+  if (e.law == Law::linear)
+    return fmt::format(
+        "no orbit has shown chaos by t = {:.6g}: they are regular, or their exponents are below "
+        "{:.2g}",
+        end, e.would_show);
+  return fmt::format("no orbit has shown chaos by t = {:.6g}: longer runs tell (--t-max)", end);
+}
+
+const char* law_of(const LyapunovEstimate& e) {
+  return e.law == LyapunovEstimate::Law::linear ? "linear" : "exponential";
 }
 
 void add_notes_of(const RepellerExponent& r, std::vector<std::string>& notes) {
@@ -156,19 +183,25 @@ std::vector<std::string> notes_of(const System& system, const LyapunovResult& re
   }
   if (!e.long_enough)
     notes.push_back(
-        "the error still grows with the length of the blocks: it is too small, and takes longer "
-        "runs or more trajectories");
-  if (!e.settled)
-    notes.push_back(
-        "many orbits showed only late that they are chaotic: the chaotic share is larger, and "
-        "takes "
-        "longer runs");
+        "the error grows with the length of the blocks, and is extrapolated from short ones to the "
+        "whole run: it may be too small, and takes longer runs or more trajectories");
+  if (!of_repeller(result) && e.regular_bias > 0.5 * e.per_time.error)
+    notes.push_back(fmt::format(
+        "whether the orbits that have not shown chaos are regular is not known yet: if they are, "
+        "lambda is too large by {:.2g}",
+        e.regular_bias));
   if (const std::string note = repeated_starts(system); !note.empty()) notes.push_back(note);
   return notes;
 }
 
-Json regularity_json(const GrowthSums& sums) {
+// Orbits that are regular for certain: until the run tells, none is.
+std::uint64_t regular_orbits(const GrowthSums::Totals& t, const LyapunovEstimate& e) {
+  return e.tells_regular ? t.linear : 0;
+}
+
+Json regularity_json(const GrowthSums& sums, const LyapunovEstimate& e) {
   const GrowthSums::Totals& t = sums.totals();
+  const std::uint64_t regular = regular_orbits(t, e);
   Json at = Json::array();
   std::uint64_t found = 0;
   for (std::size_t look = 0; look < GrowthSums::looks; ++look) {
@@ -177,13 +210,30 @@ Json regularity_json(const GrowthSums& sums) {
   }
   return Json::object()
       .set("chaotic", t.chaotic)
-      .set("regular", t.regular)
-      .set("undecided", t.orbits - t.chaotic - t.regular)
+      .set("regular", regular)
+      .set("undecided", t.orbits - t.chaotic - regular)
       .set("found", std::move(at));
+}
+
+// Of growth that is not exponential.
+std::string linear_text(const System& system, const GrowthSums& sums, const LyapunovEstimate& e) {
+  std::string text = "lambda = 0: ";
+  if (e.would_show > 0.0)
+    text += fmt::format(
+        "the deviations of {} grow linearly. An exponent above {:.2g} would have shown",
+        sums.totals().orbits == 1 ? "the orbit"
+                                  : fmt::format("all {} orbits", grouped(sums.totals().orbits)),
+        e.would_show);
+  else
+    text += why_all_are_regular(system) + ", so deviations grow linearly";
+  return '\n' + folded(text, "    ") +
+         fmt::format("\ngrowth of deviations in {:.6g} <= t <= {:.6g}\n", sums.window().from,
+                     sums.window().to);
 }
 
 std::string exponents_text(const System& system, const GrowthSums& sums,
                            const LyapunovEstimate& e) {
+  if (e.law == LyapunovEstimate::Law::linear) return linear_text(system, sums, e);
   const std::string exponent =
       fmt::format("lambda = {} per unit time{}", with_error(e.per_time.value, e.per_time.error),
                   together(system) ? ", the largest" : "; the spectrum is lambda, 0, 0, -lambda");
@@ -201,12 +251,18 @@ std::string exponents_text(const System& system, const GrowthSums& sums,
   } else if (const auto& last = e.block_errors.back(); last.count == sums.totals().orbits) {
     text += fmt::format("errors by {}\n", counted(last.count, "orbit"));
   } else {
-    text += "errors by blocks of length";
-    for (const auto& one : e.block_errors)
-      text += fmt::format("{} {:.6g}: {:.2g}", &one == &e.block_errors.front() ? "" : ",",
-                          one.length, one.error);
-    text += '\n';
+    std::string blocks = "error by blocks of length";
+    for (std::size_t i = 0; i < e.block_errors.size(); i += 2)
+      blocks += fmt::format("{} {:.4g}: {:.2g}", i == 0 ? "" : ",", e.block_errors[i].length,
+                            e.block_errors[i].error);
+    text += folded(blocks + fmt::format("; for the whole run: {:.2g}", e.per_time.error)) + '\n';
   }
+  if (sums.blocks() > 1 && std::isfinite(e.per_time.error))
+    text += folded(fmt::format(
+                "The error knows the stays (near islands, between parallel walls) that {} met. "
+                "Longer and rarer ones are not in it",
+                sums.totals().orbits == 1 ? "this orbit" : "these orbits")) +
+            '\n';
   return text;
 }
 
@@ -214,31 +270,35 @@ std::string distribution_text(const GrowthSums& sums) {
   const auto bins = distribution_of(sums);
   const auto n = static_cast<double>(sums.totals().orbits);
   if (n < 2.0) return {};
-  // Quantiles, each at the end of its bin.
-  std::string text = "finite-time exponents, below which a share of the orbits lies:\n";
-  std::vector<std::string> shares, ends;
-  double below = 0.0;
-  auto bin = bins.begin();
-  for (const double share : {0.01, 0.1, 0.5, 0.9, 0.99}) {
-    for (; bin != bins.end() && below < share * n; ++bin) below += static_cast<double>(bin->count);
-    shares.push_back(fmt::format("{:g}", share));
-    ends.push_back(fmt::format("{:.4g}", bin == bins.begin() ? bin->from : std::prev(bin)->to));
+  std::string text = "growth rates of single orbits in this window: a fraction is below the rate\n";
+  std::vector<std::string> fractions, rates;
+  for (const double fraction : {0.01, 0.1, 0.5, 0.9, 0.99}) {
+    fractions.push_back(fmt::format("{:g}", fraction));
+    rates.push_back(fmt::format("{:.4g}", quantile_of(bins, fraction)));
   }
-  return text + fitted({{"share", shares}, {"exponent", ends}});
+  return text + fitted({{"fraction", fractions}, {"rate", rates}});
 }
 
 std::string regularity_text(const GrowthSums& sums, const LyapunovEstimate& e) {
   const GrowthSums::Totals& t = sums.totals();
-  std::string text =
-      fmt::format("\nchaotic share {}\n", with_error(e.chaotic_share.value, e.chaotic_share.error));
+  const std::uint64_t regular = regular_orbits(t, e);
+  std::string text = "\n";
+  if (const std::string reason = why_no_share(sums, e); !reason.empty())
+    text += folded("no chaotic share: " + reason) + '\n';
+  else if (e.share_interval.high > 0.0)
+    text += fmt::format("chaotic share {:.4g} (95 %: {:.4g} to {:.4g})\n", e.chaotic_share.value,
+                        e.share_interval.low, e.share_interval.high);
+  else
+    text += "chaotic share 0\n";
   std::string orbits = fmt::format("{} {} chaotic, {} regular, {} undecided",
                                    counted(t.chaotic, "orbit"), t.chaotic == 1 ? "is" : "are",
-                                   grouped(t.regular), grouped(t.orbits - t.chaotic - t.regular));
+                                   grouped(regular), grouped(t.orbits - t.chaotic - regular));
   if (e.hidden > 0.0)
-    orbits += fmt::format("; {:.2g} of all may be chaotic and have not shown it", e.hidden);
+    orbits += fmt::format(
+        "; the share counts {:.2g} more, of orbits that have not left the islands yet", e.hidden);
   text += folded(orbits) + '\n';
-  if (t.chaotic > 1 && t.chaotic < t.orbits)
-    text += fmt::format("lambda of the chaotic ones = {}\n",
+  if (std::isfinite(e.chaotic.value) && t.chaotic < t.orbits)
+    text += fmt::format("lambda of the chaotic orbits = {}\n",
                         with_error(e.chaotic.value, e.chaotic.error));
   return text;
 }
@@ -248,8 +308,8 @@ std::string regularity_text(const GrowthSums& sums, const LyapunovEstimate& e) {
 Json result_json(const System& system, const LyapunovResult& result,
                  const EnsembleContext& context) {
   const GrowthSums& sums = result.growth;
-  const LyapunovEstimate e = estimate_of(sums);
-  const std::string reason = no_exponent(system, result);
+  const LyapunovEstimate e = estimate_of(system, result);
+  const std::string reason = no_exponent(system, result, e);
   Json json = ensemble_json(system, result, context);
   json.set("trajectories", result.trajectories).set("orbits", sums.totals().orbits);
   json.set("survived", result.survived);
@@ -276,6 +336,8 @@ Json result_json(const System& system, const LyapunovResult& result,
   json.set("lambda", known ? spectrum_of(system, per_time) : Json());
   json.set("per_collision",
            known && std::isfinite(per_hit.value) ? spectrum_of(system, per_hit) : Json());
+  json.set("law", known ? Json(of_repeller(result) ? "exponential" : law_of(e)) : Json());
+  if (known && !of_repeller(result) && e.would_show > 0.0) json.set("would_show", e.would_show);
   add_spectrum(json, system, result);
   json.set("repeller", result.repeller ? repeller_json(*result.repeller) : Json());
   if (!known) json.set("reason", reason);
@@ -289,10 +351,14 @@ Json result_json(const System& system, const LyapunovResult& result,
   for (const ExponentBin& bin : distribution_of(sums))
     bins.push(Json::object().set("from", bin.from).set("to", bin.to).set("count", bin.count));
   json.set("distribution", std::move(bins));
-  json.set("chaotic_share", sums.totals().orbits > 0
-                                ? estimate_json(e.chaotic_share).set("hidden", e.hidden)
+  json.set("chaotic_share", std::isfinite(e.chaotic_share.value)
+                                ? estimate_json(e.chaotic_share)
+                                      .set("low", e.share_interval.low)
+                                      .set("high", e.share_interval.high)
+                                      .set("hidden", e.hidden)
                                 : Json());
-  json.set("regularity", regularity_json(sums));
+  if (const std::string none = why_no_share(sums, e); !none.empty()) json.set("no_share", none);
+  json.set("regularity", regularity_json(sums, e));
   json.set("chaotic_lambda", std::isfinite(e.chaotic.value) ? estimate_json(e.chaotic) : Json());
   for (const std::string& note : notes_of(system, result, e)) notes.push(note);
   json.set("notes", std::move(notes));
@@ -303,11 +369,11 @@ Json result_json(const System& system, const LyapunovResult& result,
 std::string result_text(const System& system, const LyapunovResult& result,
                         const EnsembleContext& context) {
   const GrowthSums& sums = result.growth;
-  const LyapunovEstimate e = estimate_of(sums);
+  const LyapunovEstimate e = estimate_of(system, result);
   std::string text =
       doubts_of(system, result).folded_text() +
       head_text(system, result.trajectories, sums.window().to, result.complete, context);
-  if (const std::string reason = no_exponent(system, result); !reason.empty()) {
+  if (const std::string reason = no_exponent(system, result, e); !reason.empty()) {
     text += folded("\nThere is no exponent: " + reason + ".") + '\n';
   } else if (of_repeller(result)) {
     text += repeller_text(*result.repeller);

@@ -113,17 +113,22 @@ std::optional<RepellerExponent> read_repeller(hid_t file, const std::string& nam
   return r;
 }
 
-void write_estimates(const Handle& g, const GrowthSums& sums, const std::string& file) {
-  const LyapunovEstimate e = estimate_of(sums);
+void write_estimates(const Handle& g, const GrowthSums& sums, const LyapunovEstimate& e,
+                     const std::string& file) {
   const auto number = [&](const char* name, double value, Description description) {
     hdf5::write_number(g.get(), name, value, description, file);
   };
-  number("lambda", e.per_time.value, {"1/time", "Largest exponent, mean over orbits"});
+  number("lambda", e.per_time.value,
+         {"1/time", "Largest exponent, mean over orbits; NaN: the run is too short"});
   number("lambda_stderr", e.per_time.error, {"1/time", "Its standard error"});
   number("per_collision", e.per_hit.value, {"1", "Largest exponent per hit"});
   number("per_collision_stderr", e.per_hit.error, {"1", "Its standard error"});
-  number("chaotic_share", e.chaotic_share.value, {"1", "Share of the orbits that are chaotic"});
-  number("chaotic_share_stderr", e.chaotic_share.error, {"1", "Its standard error"});
+  number("chaotic_share", e.chaotic_share.value,
+         {"1", "Share of the orbits that are chaotic; NaN: the run does not tell"});
+  number("chaotic_share_stderr", e.chaotic_share.error,
+         {"1", "The larger side of its 95 % interval over 1.96"});
+  number("chaotic_share_low", e.share_interval.low, {"1", "Start of its 95 % interval"});
+  number("chaotic_share_high", e.share_interval.high, {"1", "Its end"});
   number("from", sums.window().from, {"time", "Start of the window"});
   number("to", sums.window().to, {"time", "End of the window"});
   const auto bins = distribution_of(sums);
@@ -178,7 +183,7 @@ SpectrumSums read_spectrum(const Handle& shown, const Handle& kept, const Growth
   for (std::size_t i = 0; i < count; ++i) {
     GrowthSums::Totals t;
     t.orbits = like.totals().orbits;
-    t.regular = t.orbits;
+    t.linear = t.orbits;
     t.growth = totals[i];
     for (std::size_t level = 0; level < levels; ++level)
       t.levels.push_back({squares[i * levels + level], {}, {}});
@@ -195,16 +200,15 @@ void write_replicates(const Handle& g, const std::vector<GrowthSums::Totals>& pa
   std::vector<std::uint64_t> counts;
   std::vector<const ExactSum*> sums;
   for (const GrowthSums::Totals& t : parts) {
-    counts.insert(counts.end(), {t.orbits, t.chaotic, t.regular});
+    counts.insert(counts.end(), {t.orbits, t.chaotic, t.linear});
     counts.insert(counts.end(), t.chaotic_at.begin(), t.chaotic_at.end());
     sums.insert(sums.end(), {&t.growth, &t.hits, &t.chaotic_growth});
   }
-  hdf5::write_column(
-      g.get(), "replicate_counts", std::span<const std::uint64_t>(counts),
-      {"1",
-       "Of each replicate of quasi-random starts, in rows: orbits, chaotic, regular, "
-       "chaotic_at"},
-      file);
+  hdf5::write_column(g.get(), "replicate_counts", std::span<const std::uint64_t>(counts),
+                     {"1",
+                      "Of each replicate of quasi-random starts, in rows: orbits, chaotic, linear, "
+                      "chaotic_at"},
+                     file);
   write_sums(g, "replicates", sums,
              {"1", "Of each replicate sums of growth, hits, growth of chaotic orbits, as totals"},
              file);
@@ -219,7 +223,7 @@ std::vector<GrowthSums::Totals> read_replicates(const Handle& g, const std::stri
   std::vector<GrowthSums::Totals> parts(replicates);
   for (std::size_t r = 0; r < replicates; ++r) {
     const auto row = counts.begin() + static_cast<std::ptrdiff_t>(r * counts_of_a_replicate);
-    parts[r].orbits = row[0], parts[r].chaotic = row[1], parts[r].regular = row[2];
+    parts[r].orbits = row[0], parts[r].chaotic = row[1], parts[r].linear = row[2];
     std::copy_n(row + 3, GrowthSums::looks, parts[r].chaotic_at.begin());
     parts[r].growth = sums[3 * r], parts[r].hits = sums[3 * r + 1],
     parts[r].chaotic_growth = sums[3 * r + 2];
@@ -235,7 +239,7 @@ void write_counts(const ArchiveFile& file, const LyapunovResult& result, const S
   const GrowthSums::Totals& t = sums.totals();
   const Handle shown =
       file.group(group_name, "Lyapunov exponents, their distribution, chaotic orbits");
-  write_estimates(shown, sums, name);
+  write_estimates(shown, sums, estimate_of(system, result), name);
   if (result.repeller) write_repeller(file, *result.repeller);
   const Handle g = file.group(
       sums_name, "Sums over orbits of the growth of ln|deviation| in blocks of the window");
@@ -244,7 +248,8 @@ void write_counts(const ArchiveFile& file, const LyapunovResult& result, const S
   };
   count("orbits", t.orbits, "Particles that were followed to the end of the window");
   count("chaotic", t.chaotic, "Of these, found chaotic");
-  count("regular", t.regular, "Of these, found regular; the others are undecided");
+  count("linear", t.linear,
+        "Of these, deviations had grown no more than linearly; the others are undecided");
   count("blocks", sums.blocks(), "Blocks of the window");
   hdf5::write_column(g.get(), "chaotic_at", std::span<const std::uint64_t>(t.chaotic_at),
                      {"1", "Found chaotic by the window's end / 2^7, / 2^6 ... and at the end"},
@@ -254,10 +259,10 @@ void write_counts(const ArchiveFile& file, const LyapunovResult& result, const S
   hdf5::write_number(g.get(), "bin_first", t.distribution.first(),
                      {"1", "The first begins at that many widths"}, name);
   write_sums(
-      g, "totals", {&t.growth, &t.hits, &t.chaotic_growth, &t.chaotic_squares},
+      g, "totals", {&t.growth, &t.hits, &t.chaotic_growth, &t.chaotic_squares, &t.flights},
       {"1",
-       "Sums of growth, hits, growth of chaotic orbits and its squares: in each row `digits` "
-       "numbers, the i-th of them times 2^(32 (first + i) - 1074)"},
+       "Sums of growth, hits, growth of chaotic orbits and its squares, and of mean flights: in "
+       "each row `digits` numbers, the i-th of them times 2^(32 (first + i) - 1074)"},
       name);
   std::vector<const ExactSum*> squares;
   for (const GrowthSums::Squares& level : t.levels)
@@ -288,7 +293,7 @@ void read_counts(hid_t file, const std::string& name, LyapunovResult& result) {
   };
   const TimeWindow window{edge("from"), edge("to")};
   GrowthSums::Totals t;
-  t.orbits = count("orbits"), t.chaotic = count("chaotic"), t.regular = count("regular");
+  t.orbits = count("orbits"), t.chaotic = count("chaotic"), t.linear = count("linear");
   const auto at = hdf5::read_column<std::uint64_t>(g.get(), "chaotic_at", name);
   if (at.size() != t.chaotic_at.size()) damaged(name, "'/lyapunov_sums/chaotic_at' has lost rows");
   std::copy(at.begin(), at.end(), t.chaotic_at.begin());
@@ -301,9 +306,9 @@ void read_counts(hid_t file, const std::string& name, LyapunovResult& result) {
   t.distribution =
       GrowingHistogram::from(static_cast<int>(exponent), first,
                              hdf5::read_column<std::uint64_t>(shown.get(), "bin_count", name));
-  const auto totals = read_sums(g, sums_name, "totals", 4, name);
+  const auto totals = read_sums(g, sums_name, "totals", 5, name);
   t.growth = totals[0], t.hits = totals[1], t.chaotic_growth = totals[2],
-  t.chaotic_squares = totals[3];
+  t.chaotic_squares = totals[3], t.flights = totals[4];
   result.growth = GrowthSums::from(window, blocks, t);
   const std::size_t levels = result.growth.totals().levels.size();
   const auto squares = read_sums(g, sums_name, "squares", 3 * levels, name);

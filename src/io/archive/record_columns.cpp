@@ -46,7 +46,7 @@ hdf5::Columns create_records(const ArchiveFile& file, const System& system, bool
   const hid_t regularity =
       trajectories.add<std::int32_t>(to, "regularity", {"1", "Index into the attribute `names`"});
   hdf5::write_attribute(regularity, "names",
-                        std::vector<std::string>{"regular", "chaotic", "undecided"}, target);
+                        std::vector<std::string>{"linear", "chaotic", "undecided"}, target);
   return trajectories;
 }
 

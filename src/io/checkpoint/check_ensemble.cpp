@@ -137,7 +137,7 @@ void check_stored(const StoredEnsemble& stored, const LyapunovResult& result,
   const bool together = interacts(system);
   if ((together ? totals.orbits * system.particles.size() > result.survived
                 : totals.orbits != result.survived) ||
-      totals.chaotic > totals.orbits || totals.regular > totals.orbits - totals.chaotic)
+      totals.chaotic > totals.orbits || totals.linear > totals.orbits - totals.chaotic)
     damaged(stored.file, "'/lyapunov_sums/orbits' and '/fates' contradict each other");
   const SpectrumSums& spectrum = result.spectrum;
   const bool fits = spectrum.exponents() == (system.run.spectrum ? 4 * system.particles.size() : 0);
