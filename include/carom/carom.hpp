@@ -4,6 +4,7 @@
 
 #include "carom/analysis/binary_bins.hpp"
 #include "carom/analysis/decay.hpp"
+#include "carom/analysis/drift.hpp"
 #include "carom/analysis/escape_times.hpp"
 #include "carom/analysis/free_paths.hpp"
 #include "carom/analysis/growth.hpp"
@@ -47,6 +48,7 @@
 #include "carom/ensemble/single_run.hpp"
 #include "carom/ensemble/splitting.hpp"
 #include "carom/ensemble/splitting_fit.hpp"
+#include "carom/ensemble/start_measure.hpp"
 #include "carom/ensemble/state_error.hpp"
 #include "carom/ensemble/stopwatch.hpp"
 #include "carom/ensemble/system.hpp"

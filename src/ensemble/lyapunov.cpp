@@ -9,6 +9,7 @@
 #include "carom/base/error.hpp"
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
+#include "carom/ensemble/start_measure.hpp"
 #include "carom/ensemble/stopwatch.hpp"
 #include "carom/ensemble/trajectories.hpp"
 #include "carom/geometry/curve_frame.hpp"
@@ -146,11 +147,18 @@ bool LyapunovResult::add(const LyapunovResult& other) {
   no_repeller.reset();
   growth.merge(other.growth);
   spectrum.merge(other.spectrum);
+  drift.merge(other.drift);
+  entropy_drift.merge(other.entropy_drift);
   trajectories += other.trajectories;
   add_fates(other);
   collisions += other.collisions;
   contacts += other.contacts;
   return true;
+}
+
+std::size_t growing_exponents(const System& system) {
+  if (!system.run.spectrum) return 0;
+  return (4 * system.particles.size() - vanishing_exponents(system).count) / 2;
 }
 
 TimeWindow growth_window(const System& system) {
@@ -204,8 +212,9 @@ std::optional<InputError> why_nothing(const System& system, const LyapunovResult
 
 LyapunovResult run_lyapunov(const System& system, const LyapunovOptions& options) {
   refuse_impossible(system);
-  check_start(system, options.interrupted);
-  const Sampler sampler(system, options.interrupted);
+  const System flow = with_starts_of_the_flow(system);
+  check_start(flow, options.interrupted);
+  const Sampler sampler(flow, options.interrupted);
   const World world = make_world(system, options.decisions);  // threads share its table
   LyapunovResult nothing;
   nothing.growth = plan_of(system);

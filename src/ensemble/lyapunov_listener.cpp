@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 #include "carom/base/digest.hpp"
 #include "carom/ensemble/injection.hpp"
+#include "carom/ensemble/start_measure.hpp"
 
 namespace carom::ensemble {
 
@@ -33,6 +35,8 @@ LyapunovListener::LyapunovListener(const System& system, const GrowthTimes& time
       blocks_(plan.blocks()),
       unit_length_(unit_length),
       together_(interacts(system)),
+      from_walls_(starts_of_the_map(system)),
+      growing_(growing_exponents(system)),
       engine_(engine),
       thread_(thread),
       hash_(system),
@@ -80,7 +84,16 @@ void LyapunovListener::take(Orbit& mine, const GrowthTimes::Mark& mark,
     mine.chaotic = mine.growth.regularity == Regularity::chaotic;
     if (mine.chaotic) mine.growth.look = static_cast<std::size_t>(mark.look);
   }
-  if (mark.look >= 0) return;
+  if (mark.look >= 0) {
+    const auto& looks = DriftSums::looks;
+    const auto at = std::find(looks.begin(), looks.end(), static_cast<std::size_t>(mark.look));
+    if (at == looks.end()) return;
+    const auto i = static_cast<std::size_t>(at - looks.begin());
+    mine.lengths[i] = logarithms[0];
+    mine.volumes[i] = std::accumulate(
+        logarithms.begin(), logarithms.begin() + static_cast<std::ptrdiff_t>(growing_), 0.0);
+    return;
+  }
   if (!mark.opens) {
     const auto block = static_cast<std::size_t>(mark.block);
     mine.growth.growth[block] = logarithms[0] - mine.length;
@@ -112,6 +125,11 @@ TrajectoryRecord LyapunovListener::record(const Trajectory& t, const TrajectoryE
   return r;
 }
 
+// Does an orbit count to the end of the window?
+bool LyapunovListener::stays(const ParticleEnd& end) const {
+  return end.fate == Fate::survived || (end.fate == Fate::pinned && !from_walls_);
+}
+
 void LyapunovListener::end(const Trajectory& t, const TrajectoryEnd& end) {
   std::vector<Orbit>& orbits = under_way_[t.slot];
   const EnergiesSeen energies = energies_[t.slot].end(t, end);
@@ -122,8 +140,7 @@ void LyapunovListener::end(const Trajectory& t, const TrajectoryEnd& end) {
   std::vector<TrajectoryRecord> records;
   if (thread_.wants_records())
     for (std::size_t p = 0; p < end.particles.size(); ++p) records.push_back(record(t, end, p));
-  for (const ParticleEnd& one : end.particles)
-    all = all && (one.fate == Fate::survived || one.fate == Fate::pinned);
+  for (const ParticleEnd& one : end.particles) all = all && stays(one);
   thread_.deliver(
       range,
       [&](LyapunovResult& sum) {
@@ -137,11 +154,14 @@ void LyapunovListener::end(const Trajectory& t, const TrajectoryEnd& end) {
           sum.collisions += particle.hits;
           std::uint64_t hash = hash_(index, particle.fate, particle.time, particle.hits,
                                      particle.last_wall, particle.state);
-          const bool stayed = particle.fate == Fate::survived || particle.fate == Fate::pinned;
-          if (together_ ? all && p == 0 : stayed) {
+          if (together_ ? all && p == 0 : stays(particle)) {
             sum.growth.add(mine.growth, t.number);
             for (const double growth : mine.growth.growth) hash = mix(hash, growth);
-            if (sum.spectrum.counted()) sum.spectrum.add(mine.frame);
+            sum.drift.add(mine.lengths, sum.growth.window().to);
+            if (sum.spectrum.counted()) {
+              sum.spectrum.add(mine.frame);
+              sum.entropy_drift.add(mine.volumes, sum.growth.window().to);
+            }
             for (const double growth : mine.frame) hash = mix(hash, growth);
           }
           sum.digest += hash;

@@ -48,6 +48,7 @@ class LyapunovListener : public Listener {
 
  private:
   struct Orbit;
+  bool stays(const ParticleEnd&) const;
   void take(Orbit&, const GrowthTimes::Mark&, std::span<const double> logarithms,
             std::uint64_t hits) const;
   TrajectoryRecord record(const Trajectory&, const TrajectoryEnd&, std::size_t particle) const;
@@ -61,12 +62,15 @@ class LyapunovListener : public Listener {
     bool chaotic = false;
     OrbitGrowth growth;
     std::vector<double> frame, frame_before;  ///< growth in each block; logarithms at the last mark
+    DriftSums::Lengths lengths{}, volumes{};  ///< ln|w| and that of all that grow, at some looks
   };
   const System& system_;
   const std::vector<GrowthTimes::Mark>& marks_;
   const std::size_t blocks_;
   const double unit_length_;
-  const bool together_;  ///< particles that interact are one orbit
+  const bool together_;        ///< particles that interact are one orbit
+  const bool from_walls_;      ///< starts stand for those of the map: what meets no wall is none
+  const std::size_t growing_;  ///< exponents that are not negative or 0, of a spectrum
   const Engine& engine_;
   Thread& thread_;
   const ParticleHash hash_;

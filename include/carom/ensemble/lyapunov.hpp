@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "carom/analysis/drift.hpp"
 #include "carom/analysis/fate_counts.hpp"
 #include "carom/analysis/growth.hpp"
 #include "carom/analysis/spectrum.hpp"
@@ -20,7 +21,9 @@ namespace carom {
 struct LyapunovResult : EnsembleResult, FateCounts {
   /// Of the particles that were followed to the end of the window.
   GrowthSums growth;
-  SpectrumSums spectrum;  ///< with RunPlan::spectrum
+  SpectrumSums spectrum;    ///< with RunPlan::spectrum
+  DriftSums drift;          ///< of the same particles; empty in archives of older versions
+  DriftSums entropy_drift;  ///< with RunPlan::spectrum
   /// Particles of all trajectories; the fates are those before the end of the window.
   std::uint64_t trajectories = 0;
   std::uint64_t collisions = 0;
@@ -49,6 +52,8 @@ struct VanishingExponents {
   std::vector<std::string> laws;
 };
 VanishingExponents vanishing_exponents(const System&);
+/// How many of them are positive, of a spectrum; else 0.
+std::size_t growing_exponents(const System&);
 /// Why the deviations of all orbits grow linearly, but for orbits that no random start meets, as a
 /// phrase: walls that are straight, or enough conserved quantities. "": it is not known.
 std::string why_all_are_regular(const System&);
@@ -66,6 +71,8 @@ void add_repeller(const System&, LyapunovResult&, const SplittingOptions& = {});
 /// What is wrong with a whole ensemble of which nothing could be measured; empty: nothing.
 std::optional<InputError> why_nothing(const System&, const LyapunovResult&);
 
+/// Starts that are those of the map are drawn from the flow's measure (start_measure.hpp), and do
+/// not count where they meet no wall.
 /// Follows two deviations along each trajectory until the end of the window, or with
 /// RunPlan::spectrum a frame of 4 N: exactly where particles are free or discs, and under forces by
 /// the derivative of the scheme's steps. Throws InputError for adaptive schemes, where particles

@@ -10,6 +10,7 @@
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
 #include "cli/reports/free_paths_report.hpp"
+#include "cli/reports/starts_report.hpp"
 
 namespace carom::cli {
 
@@ -162,6 +163,7 @@ DiffusionSummary summary_of(const System& system, const DiffusionResult& result)
           "the cap on hits ended particles before the window's end: those that hit least are left");
   }
   add(summary.note, repeated_starts(system));
+  add(summary.note, correlation_note(system));
   if (!summary.fit && summary.no_D.empty()) {
     summary.estimable = false;
     const auto times = std::count_if(summary.points.begin(), summary.points.end(),
@@ -191,6 +193,7 @@ Json result_json(const System& system, const DiffusionResult& result,
   add_steps(json, system, result.steps);
   add_reports(json, result.reports);
   json.set("digest", fmt::format("{:016x}", result.digest));
+  add_starts(json, system);
   json.set("decisions", decisions_json(result.decisions));
   if (const std::string none = why_one_by_one(system); !none.empty()) json.set("no_lanes", none);
   Json msd = Json::array(), fourth = Json::array(), local = Json::array(),

@@ -13,6 +13,7 @@
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
 #include "cli/reports/spectrum_report.hpp"
+#include "cli/reports/starts_report.hpp"
 
 namespace carom::cli {
 
@@ -173,10 +174,11 @@ std::vector<std::string> notes_of(const System& system, const LyapunovResult& re
     notes.push_back(std::move(none));
   // Those that are one orbit are followed only as long as none of them ends.
   const std::uint64_t each = together(system) ? system.particles.size() : 1;
-  if (const std::uint64_t followed = each * totals.orbits; followed < result.trajectories) {
-    std::string note = fmt::format(
-        "{} ended before the end of the window: the numbers are those of {}",
-        counted(result.trajectories - followed, "particle"), counted(followed, "other"));
+  const std::uint64_t followed = each * totals.orbits, met_none = uncounted(system, result);
+  if (const std::uint64_t ended = result.trajectories - met_none - followed; ended > 0) {
+    std::string note =
+        fmt::format("{} ended before the end of the window: the numbers are those of {}",
+                    counted(ended, "particle"), counted(followed, "other"));
     if (result.capped > 0)
       note += fmt::format("; more --collisions would let {} of them go on", grouped(result.capped));
     notes.push_back(std::move(note));
@@ -191,6 +193,7 @@ std::vector<std::string> notes_of(const System& system, const LyapunovResult& re
         "lambda is too large by {:.2g}",
         e.regular_bias));
   if (const std::string note = repeated_starts(system); !note.empty()) notes.push_back(note);
+  for (std::string& note : drift_notes(system, result, e)) notes.push_back(std::move(note));
   return notes;
 }
 
@@ -326,6 +329,7 @@ Json result_json(const System& system, const LyapunovResult& result,
       !none.empty())
     json.set("no_lanes", none);
   json.set("window", Json::object().set("from", sums.window().from).set("to", sums.window().to));
+  add_starts(json, system, result, e);
   const bool known = reason.empty();
   Estimate per_time = e.per_time, per_hit = e.per_hit;
   if (const auto& r = result.repeller; of_repeller(result)) {
@@ -372,7 +376,8 @@ std::string result_text(const System& system, const LyapunovResult& result,
   const LyapunovEstimate e = estimate_of(system, result);
   std::string text =
       doubts_of(system, result).folded_text() +
-      head_text(system, result.trajectories, sums.window().to, result.complete, context);
+      head_text(system, result.trajectories, sums.window().to, result.complete, context) +
+      drawn_text(system);
   if (const std::string reason = no_exponent(system, result, e); !reason.empty()) {
     text += folded("\nThere is no exponent: " + reason + ".") + '\n';
   } else if (of_repeller(result)) {

@@ -192,6 +192,34 @@ SpectrumSums read_spectrum(const Handle& shown, const Handle& kept, const Growth
   return SpectrumSums::from(std::move(sums), zeros);
 }
 
+constexpr const char* drifts[] = {"drift", "entropy_drift"};
+
+void write_drift(const Handle& g, const char* column, const DriftSums& sums,
+                 const std::string& file) {
+  if (sums.orbits == 0) return;
+  hdf5::write_number(g.get(), fmt::format("{}_orbits", column).c_str(), sums.orbits,
+                     {"1", "Orbits of these sums"}, file);
+  write_sums(
+      g, column, {&sums.far, &sums.near, &sums.far_squares, &sums.near_squares, &sums.product},
+      {"1/time, 1/time^2",
+       "How much faster deviations grew than in T/4 to T: sums of x in T/64 to T/16, of y in "
+       "T/16 to T/4, of x^2, y^2, xy, likewise"},
+      file);
+}
+
+// None in archives of older versions.
+DriftSums read_drift(const Handle& g, const char* column, const std::string& file) {
+  DriftSums made;
+  if (!hdf5::has(g.get(), column)) return made;
+  const std::string orbits = fmt::format("{}_orbits", column);
+  made.orbits = read_number<std::uint64_t>(g.get(), orbits.c_str(),
+                                           fmt::format("/{}/{}", sums_name, orbits), file);
+  const auto sums = read_sums(g, sums_name, column, 5, file);
+  made.far = sums[0], made.near = sums[1];
+  made.far_squares = sums[2], made.near_squares = sums[3], made.product = sums[4];
+  return made;
+}
+
 // Numbers of a replicate's orbits, one row each.
 constexpr std::size_t counts_of_a_replicate = 3 + GrowthSums::looks;
 
@@ -271,6 +299,8 @@ void write_counts(const ArchiveFile& file, const LyapunovResult& result, const S
       g, "squares", squares,
       {"1", "Sums of growth^2, growth hits and hits^2 over groups of 1, 2, 4 ... blocks, likewise"},
       name);
+  write_drift(g, drifts[0], result.drift, name);
+  write_drift(g, drifts[1], result.entropy_drift, name);
   if (result.spectrum.counted()) write_spectrum(shown, g, result.spectrum, name);
   if (!sums.parts().empty()) write_replicates(g, sums.parts(), name);
   const Handle ends =
@@ -316,6 +346,8 @@ void read_counts(hid_t file, const std::string& name, LyapunovResult& result) {
     t.levels.push_back({squares[3 * i], squares[3 * i + 1], squares[3 * i + 2]});
   result.growth = GrowthSums::from(window, blocks, std::move(t), read_replicates(g, name));
   result.spectrum = read_spectrum(shown, g, result.growth, name);
+  result.drift = read_drift(g, drifts[0], name);
+  result.entropy_drift = read_drift(g, drifts[1], name);
   const EnsembleNumbers numbers = read_ends(ends, name, result);
   result.trajectories = numbers.particles;
   result.collisions = numbers.collisions;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "carom/base/error.hpp"
+#include "carom/ensemble/start_measure.hpp"
 #include "carom/table/hole_names.hpp"
 #include "io/archive/ensemble_columns.hpp"
 
@@ -135,8 +136,9 @@ void check_stored(const StoredEnsemble& stored, const LyapunovResult& result,
   if (sums.window().from != window.from || sums.window().to != window.to)
     damaged(stored.file, "'/lyapunov/from' and 'to' are not the window of '/system'");
   const bool together = interacts(system);
+  const std::uint64_t stayed = result.survived - (starts_of_the_map(system) ? result.pinned : 0);
   if ((together ? totals.orbits * system.particles.size() > result.survived
-                : totals.orbits != result.survived) ||
+                : totals.orbits != stayed) ||
       totals.chaotic > totals.orbits || totals.linear > totals.orbits - totals.chaotic)
     damaged(stored.file, "'/lyapunov_sums/orbits' and '/fates' contradict each other");
   const SpectrumSums& spectrum = result.spectrum;

@@ -1,0 +1,118 @@
+#include "cli/reports/starts_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "carom/analysis/drift.hpp"
+#include "carom/ensemble/start_measure.hpp"
+#include "cli/common.hpp"
+#include "cli/reports/aligned.hpp"
+
+namespace carom::cli {
+
+using io::Json;
+
+namespace {
+
+std::string drawn_in_place(const System& system) {
+  std::string text =
+      "uniform, the measure of the flow, in place of starts from all walls, which have that of the "
+      "map from hit to hit";
+  for (const Particle& p : system.particles)
+    if (p.omega != 0.0) return text + "; circles that meet no wall do not count";
+  return text;
+}
+
+Json starts_json(const System& system) {
+  const std::string why = why_not_stationary(system);
+  Json json = Json::object().set("stationary", why.empty());
+  if (!why.empty()) json.set("reason", why);
+  return json;
+}
+
+// Of an exponent of orbits that all count in the sums.
+std::optional<Drift> drift_of_window(const LyapunovResult& result, const DriftSums& sums,
+                                     const Estimate& exponent) {
+  if (sums.orbits != result.growth.totals().orbits) return std::nullopt;
+  return drift_of(sums, result.growth.window(), exponent);
+}
+
+Json drift_json(const std::optional<Drift>& drift) {
+  if (!drift) return {};
+  return Json::object()
+      .set("value", drift->bias.value)
+      .set("stderr", drift->bias.error)
+      .set("seen", drift->seen);
+}
+
+// Would uniform starts be stationary?
+bool may_be_uniform(System system) {
+  system.initial.kind = InitialCondition::Kind::uniform;
+  return system.table->extent != Extent::open_plane && why_not_stationary(system).empty();
+}
+
+Estimate entropy_of(const LyapunovResult& result) { return estimate_of(result.spectrum).entropy; }
+
+}  // namespace
+
+void add_starts(Json& json, const System& system) { json.set("starts", starts_json(system)); }
+
+void add_starts(Json& json, const System& system, const LyapunovResult& result,
+                const LyapunovEstimate& e) {
+  Json starts = starts_json(with_starts_of_the_flow(system));
+  if (starts_of_the_map(system)) starts.set("drawn", drawn_in_place(system));
+  json.set("starts", std::move(starts));
+  json.set("drift", drift_json(drift_of_window(result, result.drift, e.per_time)));
+  if (result.spectrum.counted())
+    json.set("entropy_drift",
+             drift_json(drift_of_window(result, result.entropy_drift, entropy_of(result))));
+}
+
+std::string drawn_text(const System& system) {
+  return starts_of_the_map(system)
+             ? folded(fmt::format("starts: {}", drawn_in_place(system))) + '\n'
+             : "";
+}
+
+std::uint64_t uncounted(const System& system, const LyapunovResult& result) {
+  return starts_of_the_map(system) ? result.pinned : 0;
+}
+
+std::vector<std::string> drift_notes(const System& system, const LyapunovResult& result,
+                                     const LyapunovEstimate& e) {
+  const std::string why = why_not_stationary(with_starts_of_the_flow(system));
+  const GrowthSums::Totals& totals = result.growth.totals();
+  // Regular orbits have no exponent that could drift, and repeated ones no errors.
+  if (why.empty() || result.repeller || totals.regular == totals.orbits ||
+      !repeated_starts(system).empty())
+    return {};
+  std::vector<std::string> notes;
+  const auto add = [&](const char* what, const DriftSums& sums, const Estimate& exponent) {
+    const auto drift = drift_of_window(result, sums, exponent);
+    if (!drift || !drift->seen) return;
+    const Estimate bias{std::fabs(drift->bias.value), drift->bias.error};
+    notes.push_back(fmt::format(
+        "the starts are not stationary ({}), and {} still drifts: if that falls as 1/t, it is too "
+        "{} by {}, {:.2g} of its errors. {}",
+        why, what, drift->bias.value > 0.0 ? "large" : "small", with_error(bias.value, bias.error),
+        bias.value / exponent.error,
+        may_be_uniform(system) ? "Uniform starts (initial.kind = \"uniform\") do not drift"
+                               : "A longer run drifts less"));
+  };
+  add("lambda", result.drift, e.per_time);
+  if (result.spectrum.counted()) add("the entropy", result.entropy_drift, entropy_of(result));
+  return notes;
+}
+
+std::string correlation_note(const System& system) {
+  const std::string why = why_not_stationary(system);
+  if (why.empty()) return {};
+  return fmt::format(
+      "the starts are not stationary ({}): C(t) and its integral are those from these starts, and "
+      "D(t) need not tend to D{}",
+      why, system.run.free_paths ? "; free paths are biased by a part that falls as 1/t" : "");
+}
+
+}  // namespace carom::cli
