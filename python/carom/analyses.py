@@ -3,7 +3,7 @@
 import numpy
 
 from . import _carom
-from .axes import COLOURS, new_axes, title
+from .axes import COLOURS, new_axes, plain, title
 from .errors import InputError
 
 
@@ -27,14 +27,14 @@ def sweep(result, ax=None, y=None):
             table[keys[0]][known], table[y][known], yerr=error, fmt="o-", markersize=4, linewidth=1,
             capsize=2, color=COLOURS[0],
         )  # fmt: skip
-        ax.set(xlabel=keys[0], ylabel=y)
+        ax.set(xlabel=plain(keys[0]), ylabel=y)
     else:
         first, second = (numpy.unique(table[key]) for key in keys)
         values = numpy.full((len(first), len(second)), numpy.nan)
         values[numpy.searchsorted(first, table[keys[0]]), numpy.searchsorted(second, table[keys[1]])] = table[y]
         colours = ax.pcolormesh(first, second, values.T, shading="nearest")
         ax.figure.colorbar(colours, ax=ax, label=y)
-        ax.set(xlabel=keys[0], ylabel=keys[1])
+        ax.set(xlabel=plain(keys[0]), ylabel=plain(keys[1]))
     title(ax, result.system)
     return ax
 

@@ -22,7 +22,7 @@ def animate(thing, output=None, *, t_max=None, frames=100, fps=20, trail=10, dpi
     """
     if output is not None:
         output = os.fspath(output)
-        _check(output)
+        check(output)
     pyplot = plot._pyplot()
     from matplotlib import animation
 
@@ -79,7 +79,8 @@ def animate(thing, output=None, *, t_max=None, frames=100, fps=20, trail=10, dpi
     return film
 
 
-def _check(output):
+def check(output):
+    """Throws InputError where nothing here writes such films."""
     if not output.endswith(ENDINGS):
         raise InputError(
             f"{output}: not the name of a film", ("", 0, 0, "output"), "a name ending in .gif or .mp4"

@@ -2,6 +2,8 @@
 
 import textwrap
 
+from .errors import printable
+
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 
 
@@ -20,8 +22,13 @@ def new_axes(ax, size=(5.0, 4.2)):
     return ax
 
 
+def plain(text):
+    """A title or a name as pictures show it: without control characters, and never as a formula."""
+    return printable(text).replace("$", r"\$")
+
+
 def title_of(system, width=56):
-    return textwrap.fill(system.title or system.name, width)
+    return textwrap.fill(plain(system.title or system.name), width)
 
 
 def title(ax, system):

@@ -10,7 +10,7 @@ from typing import Any, Callable, Union
 import numpy
 
 from . import _carom, records, results, toml
-from .errors import InputError
+from .errors import InputError, path_of, text_of
 from .sweep import Sweep, Swept
 from .system import System, load, system
 
@@ -18,6 +18,8 @@ from .system import System, load, system
 def _as_system(thing):
     if isinstance(thing, System):
         return thing
+    if hasattr(thing, "tolist"):  # NumPy's strings
+        thing = thing.tolist()
     try:
         text = os.fsdecode(thing)
     except TypeError:
@@ -209,7 +211,8 @@ def run(
     three times the run. precision="certified", digits=30: a `carom.Certified`, every digit of
     which is guaranteed.
     """
-    if keywords.get("precision") not in (None, "double") or keywords.get("digits") is not None:
+    precision = keywords.get("precision")
+    if (precision is not None and text_of(precision, "precision") != "double") or keywords.get("digits") is not None:
         return _compute(
             results.Certified, _carom.run_certified, system, "run", keywords, progress
         )
@@ -329,7 +332,19 @@ _KINDS: dict[str, tuple[Callable[..., results.Result], Callable[[str], Any]]] = 
 
 def open(path) -> results.Result:  # noqa: A001: the name that users expect
     """The result that an archive holds: the same classes as of the functions that compute."""
-    path = os.fspath(path)
+    path = path_of(path)
+    try:
+        return _read(path)
+    except InputError:
+        raise
+    except (ArithmeticError, AttributeError, LookupError, MemoryError, RuntimeError, TypeError, ValueError) as error:
+        raise InputError(
+            f"{path}: the archive is damaged ({type(error).__name__}: {error})", (path, 0, 0, ""),
+            "an archive as carom wrote it",
+        ) from error  # fmt: skip
+
+
+def _read(path):
     made, outcome = opened(path)
     of = outcome.system
     toml_, name = of if isinstance(of, tuple) else (of.toml, of.name)

@@ -1,6 +1,38 @@
 """What can be wrong with what is asked for."""
 
+import os
 from typing import NamedTuple
+
+from . import _carom
+
+
+def printable(text, lines=False):
+    """The text with a visible name in place of each character that a terminal or XML takes for a
+    command; `lines`: ends of lines stay."""
+    return _carom.printable(text.encode("utf-8", "surrogatepass"), lines)
+
+
+def text_of(thing, key):
+    """What is given as text, if it is text that can be written."""
+    thing = thing.tolist() if hasattr(thing, "tolist") else thing  # NumPy's strings
+    if not isinstance(thing, str):
+        raise InputError(f"'{key}' cannot be {thing!r}", ("", 0, 0, key), "text")
+    try:
+        thing.encode()
+    except UnicodeEncodeError:
+        raise InputError(f"'{key}' has halves of characters: {thing!a}", ("", 0, 0, key), "text in Unicode") from None
+    return thing
+
+
+def path_of(path):
+    """The name of a file, as text."""
+    try:
+        text = os.fsdecode(path)
+    except TypeError:
+        raise InputError(f"{path!r} is not the name of a file", ("", 0, 0, "path"), "text, or a pathlib.Path") from None
+    if "\0" in text_of(text, "path"):
+        raise InputError(f"{path!r} is not the name of a file", ("", 0, 0, "path"), "a name without a zero")
+    return text
 
 
 class Place(NamedTuple):
@@ -19,7 +51,7 @@ class InputError(ValueError):
     """
 
     def __init__(self, message, place=("", 0, 0, ""), expected="", nearest=""):
-        super().__init__(message)
+        super().__init__(printable(message))
         self.place = Place(*place)
         self.expected = expected
         self.nearest = nearest

@@ -50,6 +50,7 @@ def make():
     parser = argparse.ArgumentParser(prog="carom plot", description=__doc__)
     parser.add_argument("source", help="an archive, a system file or the name of a built-in system")
     parser.add_argument("-o", "--output", required=True, help="PICTURE.png, .svg or .pdf")
+    parser.add_argument("--into", help="the file that is written, instead of PICTURE")
     parser.add_argument("--what", help="which picture, where there are several")
     parser.add_argument("--force", action="store_true", help="replaces a picture that is there")
     parser.add_argument("--dpi", type=float, default=200, help="dots per inch of a .png")
@@ -60,18 +61,18 @@ def make():
             f"-o {given.output}: neither a picture nor a film", ("command line", 0, 0, "-o"),
             "a name ending in .png, .svg, .pdf, .gif or .mp4",
         )  # fmt: skip
-    if os.path.exists(given.output) and not given.force:
-        raise carom.InputError(f"{given.output}: the file exists already", (given.output, 0, 0, ""))
+    into = given.into or given.output
+    if os.path.exists(into) and not given.force:
+        raise carom.InputError(f"{into}: the file exists already", (into, 0, 0, ""))
+    if film:
+        carom.animation.check(given.output)
     import matplotlib
 
     matplotlib.use("Agg")
-    stem, ending = os.path.splitext(given.output)
-    part = f"{stem}.part{ending}"
     if film:
-        animate(given.source, part)
+        animate(given.source, into)
     else:
-        draw(given.source, given.what).savefig(part, dpi=given.dpi)
-    os.replace(part, given.output)
+        draw(given.source, given.what).savefig(into, dpi=given.dpi)
 
 
 if __name__ == "__main__":

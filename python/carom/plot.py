@@ -13,10 +13,11 @@ from . import _carom
 from .analyses import comparison, equilibria, lyapunov, orbits, spectrum, sweep
 from .axes import COLOURS
 from .axes import new_axes as _new_axes
+from .axes import plain as _plain
 from .axes import pyplot as _pyplot
 from .axes import title as _title
 from .axes import title_of as _title_of
-from .errors import InputError
+from .errors import InputError, text_of
 from .system import System
 from .transport import correlation, diffusion, free_paths
 
@@ -132,7 +133,7 @@ def _labels(ax, labels):
 
 def _label(ax, at, text, colour):
     return ax.annotate(
-        text, at, color=colour, fontsize="x-small", ha="center", va="center", zorder=5,
+        _plain(text), at, color=colour, fontsize="x-small", ha="center", va="center", zorder=5,
         bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8},
     )  # fmt: skip
 
@@ -326,7 +327,7 @@ def basins(result, ax=None, colour=None, x=None, y=None, size=None):
         _cover(ax, rows[x], rows[y], rows["hole"], norm, ListedColormap(shades), size)
         for number, name in enumerate(["none", *result.system.holes], -1):
             if (rows["hole"] == number).any():
-                ax.scatter([], [], color=shades[number + 1], s=20, label=name)
+                ax.scatter([], [], color=shades[number + 1], s=20, label=_plain(name))
         ax.legend(fontsize="small", frameon=False, loc="center left", bbox_to_anchor=(1.0, 0.5))
     else:
         rows = rows[numpy.isfinite(rows[colour])]
@@ -407,7 +408,7 @@ def section(result, ax=None, x=None, y=None):
             for edge in starts[1:-1]:
                 ax.axvline(edge, color="0.8", linewidth=0.6, zorder=0)
             top = ax.secondary_xaxis("top")
-            top.set_xticks((starts[:-1] + starts[1:]) / 2, [wall["name"] for wall in walls])
+            top.set_xticks((starts[:-1] + starts[1:]) / 2, [_plain(wall["name"]) for wall in walls])
             top.tick_params(length=0, labelsize="x-small")
         met = numpy.unique(points["wall"]) if len(points) else [0, len(walls) - 1]
         ax.set_xlim(starts[met[0]], starts[met[-1] + 1])
@@ -464,7 +465,7 @@ def result(result, ax=None, what=None, **keywords):
     there = pictures(result)
     if not there:
         raise NotImplementedError(f"a {type(result).__name__} has no picture")
-    what = what or next(iter(there))
+    what = text_of(what, "what") if what is not None else next(iter(there))
     if what not in there:
         nearest = _carom.nearest_name(what, list(there))
         raise InputError(

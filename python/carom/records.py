@@ -9,6 +9,7 @@ from typing import Any
 import numpy
 
 from . import _carom
+from .errors import printable
 
 
 class Record:
@@ -214,10 +215,10 @@ class Report:
         return ""
 
     def __str__(self):
-        return self._outcome.text()
+        return printable(self._outcome.text(), lines=True)
 
     def __repr__(self):
-        return f"<carom.{type(self).__name__}{self._of()}: {self._summary()}>"
+        return printable(f"<carom.{type(self).__name__}{self._of()}: {self._summary()}>")
 
     def _repr_html_(self):
         return f"<pre>{html.escape(str(self))}</pre>"

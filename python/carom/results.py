@@ -10,7 +10,7 @@ import numpy
 
 from . import _carom
 from ._carom import counted
-from .errors import InputError
+from .errors import InputError, path_of
 from .records import Record, Report, table_of
 from .system import System
 
@@ -116,7 +116,7 @@ class Splitting(OfSystem):
 
 def check_archive(path):
     """The name of an archive, as text. Other endings are refused, as by the program."""
-    path = os.fspath(path)
+    path = path_of(path)
     if os.path.splitext(path)[1] not in ("", ".h5", ".hdf5", ".part"):
         raise InputError(
             f"'{path}' does not end as an archive", (path, 0, 0, ""), ".h5 or .hdf5; plot() draws pictures"

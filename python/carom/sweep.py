@@ -7,7 +7,7 @@ import tempfile
 import numpy
 
 from . import _carom, toml
-from .errors import InputError
+from .errors import InputError, text_of
 from .results import Result, check_archive
 from .system import _SECTION_OF, System
 
@@ -21,8 +21,11 @@ def typed(sweep):
     for key, values in sweep.items():
         if not isinstance(key, str):
             raise InputError(f"{key!r} is not a key of a system", _PLACE, expected)
+        key = text_of(key, "sweep")
         values = values.tolist() if hasattr(values, "tolist") else values
-        if not isinstance(values, str):
+        if isinstance(values, str):
+            values = text_of(values, key)
+        else:
             listed = list(values) if hasattr(values, "__iter__") else [values]
             if not listed or any(one is None or isinstance(one, (list, tuple, dict)) for one in listed):
                 raise InputError(
@@ -101,15 +104,16 @@ class Sweep(Result):
             from .commands import open as open_archive
 
             made = []
-            with tempfile.TemporaryDirectory() as folder:
-                for index in self._outcome.indices:
-                    file = os.path.join(folder, f"{index}.h5")
-                    if not self._outcome.extract(index, file):
-                        raise ValueError(f"the sweep stores no archive of its value {index}")
-                    result = open_archive(file)
-                    with open(file, "rb") as stream:
-                        result._archive = stream.read()
-                    made.append(result)
+            folder = tempfile.TemporaryDirectory()
+            for index in self._outcome.indices:
+                file = os.path.join(folder.name, f"{index}.h5")
+                if not self._outcome.extract(index, file):
+                    raise ValueError(f"the sweep stores no archive of its value {index}")
+                result = open_archive(file)
+                with open(file, "rb") as stream:
+                    result._archive = stream.read()
+                result._folder = folder  # its rows are read when they are asked for
+                made.append(result)
             self._results = made
         return self._results
 

@@ -1,10 +1,9 @@
 """Systems: a table with its field, particles, forces and run, as a system file describes them."""
 
 import json
-import pathlib
 
 from . import _carom, toml
-from .errors import InputError
+from .errors import InputError, path_of, printable, text_of
 
 _KEYS = _carom.keys()
 _SECTIONS = {section.split(".")[0] for section, *_ in _KEYS if section} | {"initial", "table"}
@@ -64,7 +63,7 @@ def _typed(key, given):
     """A value as it is typed after an option: 1/3, 10,20,40."""
     given = given.tolist() if hasattr(given, "tolist") else given
     if isinstance(given, str):
-        text = given
+        text = text_of(given, key)
     elif hasattr(given, "__iter__"):
         text = (":" if key == "window" else ",").join(toml.bare(one, key) for one in given)
     else:
@@ -241,9 +240,9 @@ class System:
     def __repr__(self):
         table = self._table()
         holes = f", holes {', '.join(self.holes)}" if table["holes"] else ""
-        return f"<carom.System {self._name}: {table['shape']}, walls {', '.join(self.walls[:8])}" + (
-            ", …" if len(self.walls) > 8 else ""
-        ) + f"{holes}>"
+        more = ", …" if len(self.walls) > 8 else ""
+        walls = ", ".join(self.walls[:8]) + more
+        return printable(f"<carom.System {self._name}: {table['shape']}, walls {walls}{holes}>")
 
     def _repr_svg_(self):
         return self._loaded("table").svg()
@@ -257,17 +256,19 @@ class System:
 
 def load(path) -> System:
     """A system file (TOML)."""
-    path = pathlib.Path(path)
+    path = path_of(path)
+    text = _carom.read_text(path)
     try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"cannot read '{path}': {error.strerror}", (str(path), 0, 0, "")) from None
-    return System(text, str(path))._checked()
+        text = text.decode()
+    except UnicodeDecodeError:  # where it is no text is told by what reads it
+        pass
+    return System(text, path)._checked()
 
 
 def system(name: str) -> System:
     """A system that Carom carries with it, by its name: see `carom.systems()`."""
     texts = dict(_carom.systems())
+    name = text_of(name, "name")
     if name not in texts:
         nearest = _carom.nearest_name(name, list(texts))
         hint = f", did you mean '{nearest}'?" if nearest else ""

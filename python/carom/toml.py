@@ -5,18 +5,24 @@ import fractions
 import json
 import math
 import numbers
+import re
 
-from .errors import InputError
+from .errors import InputError, text_of
 
 
-def value(thing, key=""):
+MOST_LEVELS = 32  # of lists and dictionaries in each other; the reader takes 64 with its own
+
+
+def value(thing, key="", levels=0):
     """One value in TOML: numbers, exact text, lists, dictionaries. `key`: whose it is."""
+    if levels > MOST_LEVELS:
+        raise InputError(f"'{key}' is nested too deeply", ("", 0, 0, key), f"at most {MOST_LEVELS} levels")
     if hasattr(thing, "tolist"):  # NumPy's numbers and arrays
         thing = thing.tolist()
     if isinstance(thing, bool):
         return "true" if thing else "false"
     if isinstance(thing, str):
-        return json.dumps(thing, ensure_ascii=False)
+        return quoted(text_of(thing, key))
     if isinstance(thing, numbers.Integral):
         return str(int(thing))
     if isinstance(thing, fractions.Fraction):
@@ -29,15 +35,27 @@ def value(thing, key=""):
             return repr(thing)
         return "nan" if math.isnan(thing) else "inf" if thing > 0 else "-inf"
     if isinstance(thing, dict):
-        return "{ " + ", ".join(f"{name} = {value(one, key)}" for name, one in thing.items()) + " }"
+        entries = (f"{name_of(name, key)} = {value(one, key, levels + 1)}" for name, one in thing.items())
+        return "{ " + ", ".join(entries) + " }"
     if isinstance(thing, (list, tuple)) or hasattr(thing, "__iter__"):
-        items = [value(one, key) for one in thing]
+        items = [value(one, key, levels + 1) for one in thing]
         # A line each: the place of a number is found by counting along its line.
         rows = any(item.startswith("[") for item in items)
         return "[" + (",\n" if rows else ", ").join(items) + "]"
     raise InputError(
         f"'{key}' cannot be {thing!r}", ("", 0, 0, key), "numbers, text, lists or dictionaries"
     )
+
+
+def quoted(text):
+    """A text in quotes. TOML takes the escapes of JSON, and wants one more."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def name_of(key, of=""):
+    """A key as it is written."""
+    key = text_of(key, of)
+    return key if re.fullmatch("[A-Za-z0-9_-]+", key) else quoted(key)
 
 
 def bare(thing, key=""):
@@ -48,6 +66,8 @@ def bare(thing, key=""):
 
 def section(name, entries, array=False):
     """A section with its header; entries that are None are left out."""
+    if not isinstance(entries, dict):
+        raise InputError(f"'{name}' cannot be {entries!r}", ("", 0, 0, name), "a dictionary of its keys")
     head = f"[[{name}]]" if array else f"[{name}]"
-    lines = [f"{key} = {value(one, key)}" for key, one in entries.items() if one is not None]
+    lines = [f"{name_of(key, name)} = {value(one, key)}" for key, one in entries.items() if one is not None]
     return "\n".join([head, *lines]) + "\n"

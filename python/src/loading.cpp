@@ -12,6 +12,7 @@
 #include "cli/common.hpp"
 #include "cli/reports/table_report.hpp"
 #include "cli/reports/table_svg.hpp"
+#include "io/text_file.hpp"
 #include "loaded.hpp"
 
 namespace py = pybind11;
@@ -105,6 +106,18 @@ void add_loading(py::module_& module) {
       },
       py::call_guard<py::gil_scoped_release>(), py::arg("toml"), py::arg("name"),
       py::arg("command"), py::arg("set"), py::arg("texts"));
+  module.def(
+      "read_text",
+      [](const std::string& file) {
+        std::string text;
+        {
+          const py::gil_scoped_release release;
+          text =
+              io::text_of_file(file, io::most_of_system_file, {file, 0, 0, ""}, "", "a TOML file");
+        }
+        return py::bytes(text);
+      },
+      py::arg("file"));
   module.def("systems", [] {
     std::vector<std::pair<std::string, std::string>> all;
     for (const BuiltinSystem& one : builtin_systems())

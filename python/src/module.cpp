@@ -1,6 +1,9 @@
 // The Python module: what C++ computes, as Python objects. The package carom gives them names.
 #include <pybind11/pybind11.h>
 
+#include <string>
+
+#include "base/printable.hpp"
 #include "carom/base/error.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/io/archive.hpp"
@@ -35,6 +38,13 @@ PYBIND11_MODULE(_carom, module) {
       PyErr_SetString(PyExc_KeyboardInterrupt, "");
     }
   });
+  module.def(
+      "printable",
+      [](const py::bytes& text, bool lines) {
+        return carom::base::printable(std::string(text),
+                                      lines ? carom::base::Lines::many : carom::base::Lines::one);
+      },
+      py::arg("text"), py::arg("lines"));
   carom::python::add_loading(module);
   carom::python::add_ensembles(module);
   carom::python::add_runs(module);

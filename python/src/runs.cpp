@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "arrays.hpp"
 #include "beside.hpp"
 #include "carom/analysis/section.hpp"
+#include "carom/base/error.hpp"
 #include "carom/ensemble/run_rows.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/section_run.hpp"
@@ -21,6 +23,7 @@
 #include "cli/reports/doubts.hpp"
 #include "cli/reports/run_report.hpp"
 #include "cli/reports/section_report.hpp"
+#include "io/archive/stored_run.hpp"
 #include "loaded.hpp"
 
 namespace py = pybind11;
@@ -77,15 +80,56 @@ class Recording : public Observer {
   Course& course_;
 };
 
+// Rows that were computed, or that an archive holds: those are read when they are asked for.
+template <class Row>
+class Rows {
+ public:
+  Rows() = default;
+  Rows(std::shared_ptr<const std::vector<Row>> rows) : rows_(std::move(rows)) {}
+  explicit Rows(std::function<std::vector<Row>()> read) : read_(std::move(read)) {}
+  const std::shared_ptr<const std::vector<Row>>& get() const {
+    if (!rows_) rows_ = std::make_shared<const std::vector<Row>>(read_());
+    return rows_;
+  }
+
+ private:
+  mutable std::shared_ptr<const std::vector<Row>> rows_;
+  std::function<std::vector<Row>()> read_;
+};
+
+// The file that was opened, as long as it is the same.
+class OpenedFile {
+ public:
+  explicit OpenedFile(std::string name) : name_(std::move(name)), at_first_(now()) {}
+  template <class Row>
+  Rows<Row> rows(std::vector<Row> (*read)(const std::string&)) const {
+    return Rows<Row>([file = *this, read] {
+      if (file.now() != file.at_first_)
+        throw InputError(Place{file.name_, 0, 0, ""}, "was changed since it was opened",
+                         "the same archive, or carom.open once more");
+      return read(file.name_);
+    });
+  }
+
+ private:
+  using State = std::pair<std::filesystem::file_time_type, std::uintmax_t>;
+  State now() const {
+    std::error_code time, size;
+    return {std::filesystem::last_write_time(name_, time), std::filesystem::file_size(name_, size)};
+  }
+  std::string name_;
+  State at_first_;
+};
+
 struct RunOutcome {
   LoadedPointer system;
   SingleRunResult result;
   std::string status;
   std::optional<std::uint64_t> trajectory = 0;  ///< none: of an archive of an earlier build
-  std::shared_ptr<const std::vector<HitRow>> hits;
-  std::shared_ptr<const std::vector<SampleRow>> samples;
-  std::shared_ptr<const std::vector<ContactRow>> contacts;
-  std::shared_ptr<const std::vector<EnergyRow>> energies;
+  Rows<HitRow> hits;
+  Rows<SampleRow> samples;
+  Rows<ContactRow> contacts;
+  Rows<EnergyRow> energies;
   std::vector<SampleRow> starts;
 };
 
@@ -116,10 +160,10 @@ py::tuple run(const std::shared_ptr<Loaded>& loaded, bool state_error, const py:
   });
   if (interruption && outcome.result.particles.empty()) std::rethrow_exception(interruption);
   outcome.status = cli::run_status(outcome.result);
-  outcome.hits = recording.hits;
-  outcome.samples = recording.samples;
-  outcome.contacts = recording.contacts;
-  outcome.energies = recording.energies;
+  outcome.hits = {recording.hits};
+  outcome.samples = {recording.samples};
+  outcome.contacts = {recording.contacts};
+  outcome.energies = {recording.energies};
   return py::make_tuple(std::move(outcome), error_of(interruption));
 }
 
@@ -139,15 +183,23 @@ void save(const RunOutcome& self, const std::string& file, bool force) {
       return true;
     };
     archive->start(self.starts);
-    if (append(*self.hits) && append(*self.contacts) && append(*self.samples) &&
-        append(*self.energies))
+    if (append(*self.hits.get()) && append(*self.contacts.get()) && append(*self.samples.get()) &&
+        append(*self.energies.get()))
       archive->finish(self.result, self.status);
   });
   if (interruption) std::rethrow_exception(interruption);
 }
 
+// Sees whether a run that has ended goes on all the same.
+struct Ended : Observer {
+  bool goes_on = false;
+  void hit(const HitEvent&) override { goes_on = true; }
+  void contact(const ContactEvent&) override { goes_on = true; }
+};
+
 // A stored run is asked to go on where it has ended: no event comes, and the end is told again.
 RunOutcome open_run(const std::string& file) {
+  const OpenedFile opened(file);
   const StoredRun stored = read_run(file);
   auto loaded = std::make_shared<Loaded>();
   loaded->loaded = read_system(stored.system_toml, file + ": /system");
@@ -155,25 +207,30 @@ RunOutcome open_run(const std::string& file) {
   system.name = stored.system_name;
   loaded->options.command = "run";
   cli::choose_engine(stored.engine == "steps" ? "steps" : "auto", system);
-  Observer none;
+  io::check_stored(stored, system, file);
+  Ended ended;
   SingleRunOptions how;
   how.resume = stored.particles;
+  how.interrupted = [&] { return ended.goes_on; };
   how.steps = stored.steps;
   double end = 0.0;
   for (const ParticleProgress& p : stored.particles) end = std::max(end, p.end.value());
   system.run.t_max = end;
   RunOutcome outcome;
-  outcome.result = run_single(system, none, how);
+  outcome.result = run_single(system, ended, how);
+  if (ended.goes_on)
+    throw InputError(Place{file, 0, 0, ""}, "'/state' is not where the run ended",
+                     "an archive as carom wrote it");
   if (system.dynamics.forces && !system.dynamics.forces->empty())
     outcome.result.no_state_error = "archives do not hold it";
   outcome.starts = read_starts(file);
   if (outcome.starts.empty()) outcome.starts = drawn_starts(system);
   outcome.status = stored.status;
   outcome.trajectory = stored.trajectory;
-  outcome.hits = std::make_shared<const std::vector<HitRow>>(read_hits(file));
-  outcome.samples = std::make_shared<const std::vector<SampleRow>>(read_samples(file));
-  outcome.contacts = std::make_shared<const std::vector<ContactRow>>(read_contacts(file));
-  outcome.energies = std::make_shared<const std::vector<EnergyRow>>(read_energies(file));
+  outcome.hits = opened.rows(read_hits);
+  outcome.samples = opened.rows(read_samples);
+  outcome.contacts = opened.rows(read_contacts);
+  outcome.energies = opened.rows(read_energies);
   outcome.system = std::move(loaded);
   return outcome;
 }
@@ -260,10 +317,13 @@ void add_runs(py::module_& module) {
            [](const RunOutcome& self) {
              return cli::doubts_of(self.system->system(), self.result).lines;
            })
-      .def("hits", [](const RunOutcome& self) { return array_of<HitRow>(self.hits); })
-      .def("samples", [](const RunOutcome& self) { return array_of<SampleRow>(self.samples); })
-      .def("contacts", [](const RunOutcome& self) { return array_of<ContactRow>(self.contacts); })
-      .def("energies", [](const RunOutcome& self) { return array_of<EnergyRow>(self.energies); })
+      .def("hits", [](const RunOutcome& self) { return array_of<HitRow>(self.hits.get()); })
+      .def("samples",
+           [](const RunOutcome& self) { return array_of<SampleRow>(self.samples.get()); })
+      .def("contacts",
+           [](const RunOutcome& self) { return array_of<ContactRow>(self.contacts.get()); })
+      .def("energies",
+           [](const RunOutcome& self) { return array_of<EnergyRow>(self.energies.get()); })
       .def("starts",
            [](const RunOutcome& self) { return array_of(std::vector<SampleRow>(self.starts)); })
       .def("save", &save, py::arg("file"), py::arg("force"));

@@ -79,9 +79,11 @@ void save(const SweepOutcome& self, const std::string& name, bool force,
   try {
     for (std::size_t i = 0; i < self.result.rows.size(); ++i) {
       const cli::SweepRow& row = self.result.rows[i];
-      if (!archives[i].empty())
-        std::filesystem::copy_file(archives[i], io::value_of_sweep(file, row.index),
-                                   std::filesystem::copy_options::overwrite_existing);
+      if (!archives[i].empty()) {
+        const std::string value = io::value_of_sweep(file, row.index);
+        std::filesystem::remove(value);  // a new file, never through a link
+        std::filesystem::copy_file(archives[i], value);
+      }
       io::keep_report(file, row.index, row.report.text());
     }
     cli::Options options;

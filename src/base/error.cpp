@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "printable.hpp"
+
 namespace carom {
 namespace {
 
@@ -56,7 +58,7 @@ std::string describe(const Place& place) {
 }
 
 InputError::InputError(Place place, std::string problem, std::string expected, std::string nearest)
-    : std::runtime_error(message(place, problem, expected, nearest)),
+    : std::runtime_error(base::printable(message(place, problem, expected, nearest))),
       place_(std::move(place)),
       problem_(std::move(problem)),
       expected_(std::move(expected)),

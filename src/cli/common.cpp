@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "base/printable.hpp"
 #include "carom/base/error.hpp"
 #include "carom/base/whole_number.hpp"
 #include "carom/ensemble/sampler.hpp"
@@ -53,7 +54,9 @@ extern "C" void on_interrupt(int) {
 extern "C" void on_limit(int) { interrupted = true; }
 
 // Writes in one piece, so that lines of several processes do not mix. A closed stderr is no error.
-void write_message(const std::string& line) { std::fputs((line + "\n").c_str(), stderr); }
+void write_message(const std::string& line) {
+  std::fputs((base::printable(line, base::Lines::many) + "\n").c_str(), stderr);
+}
 
 Place option_place(const char* option) { return Place{"command line", 0, 0, option}; }
 
@@ -183,11 +186,7 @@ ArchiveLock claim_output(const Options& options) {
 void write_file(const std::string& name, const std::string& text) {
   const std::string part = io::aside_of(name);
   errno = 0;
-  std::FILE* file = std::fopen(part.c_str(), "w");
-  bool ok = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  ok = file && std::fclose(file) == 0 && ok;
-  ok = ok && std::rename(part.c_str(), name.c_str()) == 0;
-  if (ok) return;
+  if (io::write_new_file(part, text) && std::rename(part.c_str(), name.c_str()) == 0) return;
   throw InputError(fmt::format("cannot write '{}': {}", name, std::strerror(errno)));
 }
 
@@ -242,9 +241,10 @@ std::size_t rows_of(const Options& options) {
 }
 
 void print(const std::string& text) {
+  const std::string shown = base::printable(text, base::Lines::many);
   errno = 0;
-  const bool ok =
-      std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  const bool ok = std::fwrite(shown.data(), 1, shown.size(), stdout) == shown.size() &&
+                  std::fflush(stdout) == 0;
   if (!ok && errno == EPIPE) throw OutputClosed();
   if (!ok)
     throw InputError(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
@@ -274,7 +274,7 @@ std::string until(double last_time) {
 }
 
 std::string heading(const System& system) {
-  return folded(system.title.empty() ? system.name : system.title) + "\n";
+  return folded(base::printable(system.title.empty() ? system.name : system.title)) + "\n";
 }
 
 }  // namespace carom::cli

@@ -5,14 +5,23 @@
 #include <stdlib.h>
 #include <sys/wait.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "carom/base/error.hpp"
+#include "carom/ensemble/sampler.hpp"
 #include "carom/io/archive.hpp"
+#include "cli/common.hpp"
 
 extern char** environ;
 
@@ -38,7 +47,13 @@ std::string interpreter() {
 // Its exit status says that the module is missing, without Python's own report of that.
 constexpr int no_module = 64;
 constexpr const char* start_of_module =
-    "import sys\n"
+    "import signal, sys\n"
+    "signals = signal.SIGINT, signal.SIGTERM, signal.SIGHUP\n"
+    "def stop(*_):\n"
+    "  for one in signals: signal.signal(one, signal.SIG_IGN)\n"
+    "  sys.exit(130)\n"
+    "for one in signals:\n"
+    "  if signal.getsignal(one) is not signal.SIG_IGN: signal.signal(one, stop)\n"
     "try:\n"
     "  import matplotlib, carom.picture\n"
     "except Exception:\n"
@@ -60,27 +75,89 @@ std::string module_path() {
   return before && *before ? path + ":" + before : path;
 }
 
-int run_and_wait(const std::vector<std::string>& words) {
+// The process that draws; 0: none. Signals that end the program are passed on to it.
+std::atomic<pid_t> painter{0};
+std::atomic<bool> signalled{false};
+static_assert(std::atomic<pid_t>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+
+extern "C" void pass_on(int number) {
+  signalled = true;
+  if (const pid_t child = painter) ::kill(child, number);
+}
+
+// While it lives, signals are passed on. Those that are ignored, as by nohup, stay so.
+class Passing {
+ public:
+  Passing() {
+    signalled = false;
+    struct sigaction action {};
+    action.sa_handler = pass_on;
+    sigemptyset(&action.sa_mask);
+    for (std::size_t i = 0; i < before_.size(); ++i)
+      if (::sigaction(numbers[i], nullptr, &before_[i]) == 0 && before_[i].sa_handler != SIG_IGN)
+        ::sigaction(numbers[i], &action, nullptr);
+  }
+  Passing(const Passing&) = delete;
+  ~Passing() {
+    painter = 0;
+    for (std::size_t i = 0; i < before_.size(); ++i) ::sigaction(numbers[i], &before_[i], nullptr);
+  }
+
+ private:
+  static constexpr std::array numbers{SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, numbers.size()> before_{};
+};
+
+// How Python ended: its exit status, or the signal that ended it.
+struct Drawn {
+  int status = -1, by_signal = 0;
+  bool interrupted = false;
+};
+
+// A process that does not end after a signal is killed: what it has begun is removed all the same.
+Drawn wait_for(pid_t child) {
+  constexpr int patience = 2000, pause = 10;  // ms
+  Drawn drawn;
+  int status = 0, waited = 0;
+  for (;;) {
+    const pid_t ended = ::waitpid(child, &status, WNOHANG);
+    if (ended < 0 && errno != EINTR) return drawn;
+    if (ended == child) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(pause));
+    if (signalled && (waited += pause) == patience) ::kill(child, SIGKILL);
+  }
+  if (WIFEXITED(status)) drawn.status = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) drawn.by_signal = WTERMSIG(status);
+  drawn.interrupted = signalled && drawn.status != 0;
+  return drawn;
+}
+
+Drawn run_and_wait(const std::vector<std::string>& words) {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   ::setenv("PYTHONPATH", module_path().c_str(), 1);
+  const Passing passing;
   pid_t child = 0;
   if (::posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments.data(), environ) != 0)
-    return -1;
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return -1;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return {};
+  painter = child;
+  if (signalled) ::kill(child, SIGTERM);  // it came before there was a process
+  return wait_for(child);
 }
 
 int call_module(const std::string& picture, const std::vector<std::string>& arguments) {
   std::vector<std::string> words{interpreter(), "-c", start_of_module};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  const int status = run_and_wait(words);
-  if (status < 0 || status == no_module)
+  const Drawn drawn = run_and_wait(words);
+  if (drawn.interrupted || drawn.status == stopped) return stopped;
+  if (drawn.by_signal != 0)
+    throw InputError(Place{picture, 0, 0, ""},
+                     fmt::format("Python, which draws it, was ended by signal {} ({})",
+                                 drawn.by_signal, ::strsignal(drawn.by_signal)));
+  if (drawn.status < 0 || drawn.status == no_module)
     throw InputError(Place{picture, 0, 0, ""}, "there is nothing to draw the picture with", needed);
-  return status;
+  return drawn.status == 0 ? done : bad_input;  // Python has said what is wrong
 }
 
 }  // namespace
@@ -92,10 +169,17 @@ bool is_picture(const std::string& file) {
 
 int draw(const std::string& source, const std::string& picture, bool force,
          const std::string& what) {
-  std::vector<std::string> words{source, "-o", picture};
-  if (!what.empty()) words.insert(words.end(), {"--what", what});
-  if (force) words.emplace_back("--force");
-  return call_module(picture, words) == 0 ? done : bad_input;  // Python has said what is wrong
+  refuse_existing(picture, force);
+  const TemporaryFolder folder(picture);
+  const std::string made = folder.file("picture" + ending_of(picture));
+  std::vector<std::string> words{"--output=" + picture, "--into=" + made};
+  if (!what.empty()) words.push_back("--what=" + what);
+  words.insert(words.end(), {"--", source});
+  const int status = call_module(picture, words);
+  if (status != done) return status;
+  if (std::rename(made.c_str(), picture.c_str()) != 0)
+    throw InputError(fmt::format("cannot write '{}': {}", picture, std::strerror(errno)));
+  return done;
 }
 
 PictureOfResult::PictureOfResult(Options& options) {
@@ -110,7 +194,8 @@ PictureOfResult::PictureOfResult(Options& options) {
         fmt::format("'{}' ends neither as an archive nor as a picture", options.output),
         ".h5, .hdf5, .png, .svg or .pdf");
   refuse_existing(options.output, options.force);
-  call_module(options.output, {});  // before anything is computed
+  // Before anything is computed.
+  if (call_module(options.output, {}) == stopped) throw SamplingStopped();
   picture_ = std::exchange(options.output, {});
   force_ = options.force;
   options.output = folder_.emplace().file("result.h5");

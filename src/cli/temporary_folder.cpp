@@ -22,6 +22,12 @@ TemporaryFolder::TemporaryFolder() {
     throw InputError(fmt::format("cannot make the folder '{}': {}", path_, std::strerror(errno)));
 }
 
+TemporaryFolder::TemporaryFolder(const std::string& file)
+    : path_((std::filesystem::path(file).parent_path() / ".carom-XXXXXX").string()) {
+  if (!::mkdtemp(path_.data()))
+    throw InputError(fmt::format("cannot write '{}': {}", file, std::strerror(errno)));
+}
+
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);

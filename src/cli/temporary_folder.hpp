@@ -9,6 +9,8 @@ class TemporaryFolder {
  public:
   /// In TMPDIR, or where the system keeps temporary files. Throws InputError if it cannot be made.
   TemporaryFolder();
+  /// Beside `file`, which then can be made in it and renamed.
+  explicit TemporaryFolder(const std::string& file);
   TemporaryFolder(const TemporaryFolder&) = delete;
   ~TemporaryFolder();
   std::string file(const std::string& name) const { return path_ + "/" + name; }

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "base/printable.hpp"
 
 namespace carom::io {
 
@@ -10,7 +13,16 @@ namespace {
 
 std::string quoted(std::string_view text) {
   std::string out = "\"";
-  for (const char c : text) {
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    const base::CodePoint point = base::code_point(text, at);
+    if (point.bytes != 1) {  // JSON is UTF-8: other bytes are shown as text
+      const std::string_view whole = text.substr(at, std::max<std::size_t>(point.bytes, 1));
+      const std::string shown = base::printable(whole);
+      out += point.bytes == 0 || shown.starts_with("\\U") ? "\\" + shown : shown;
+      at += whole.size() - 1;
+      continue;
+    }
     switch (c) {
       case '"':
         out += "\\\"";
@@ -28,7 +40,7 @@ std::string quoted(std::string_view text) {
         out += "\\r";
         break;
       default:
-        if (static_cast<unsigned char>(c) < 0x20)
+        if (base::acts(static_cast<unsigned char>(c)))
           out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
         else
           out += c;

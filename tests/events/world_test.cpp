@@ -49,6 +49,23 @@ TEST(World, EscapesThroughAHoleClosedAtItsStartAndOpenAtItsEnd) {
   EXPECT_EQ(fate_below(std::nextafter(0.5, 0.0)), Fate::escaped);
 }
 
+// A state after the end was one of the straight line outside of the table.
+TEST(World, OneThatHasEndedStaysWhereItEnded) {
+  Table table = square();
+  table.holes.push_back({"gap", 0, 0.25, 0.5});
+  table.walls[0].holes = {0};
+  World world(table);
+  Recorder seen;
+  world.add(particle(), start({0.375, 0.5}, {0.0, -1.0}));
+  world.run_until(3.0, seen);
+  ASSERT_EQ(world.fate(0), Fate::escaped);
+  const State end = world.state(0), later = world.state_at(0, 100.0);
+  EXPECT_EQ(later.position, Vector(0.375, 0.0));
+  EXPECT_EQ(later.time.value(), 0.5);
+  EXPECT_EQ(later.position, end.position);
+  EXPECT_EQ(later.velocity, end.velocity);
+}
+
 TEST(World, TurnsBackInARightAngle) {
   const Table table = square();
   World world(table);

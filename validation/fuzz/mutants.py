@@ -245,6 +245,21 @@ def extreme_number(chance, sections):
     replace_one(chance, sections, f"{NUMBER}|{STRING}" if chance.random() < 0.3 else NUMBER, lambda _: chance.choice(EXTREMES))
 
 
+def deep(chance, sections):
+    """Dotted keys, headers, lists and tables of many levels."""
+    levels = chance.choice((3, 60, 70, 300, 20000))
+    section = chance.choice(sections)
+    section.insert(chance.randrange(len(section)) + 1, chance.choice((
+        "a" + ".a" * levels + " = 1", "[a" + ".a" * levels + "]", "a = " + "[" * levels + "]" * levels,
+        "a = " + "{a = " * levels + "1" + "}" * levels, "a = " + "[{a.b.c = " * levels)))
+
+
+def hostile_text(chance, sections):
+    """Titles and names that act on terminals, break XML or are formulas."""
+    replace_one(chance, sections, STRING, lambda _: '"' + chance.choice((
+        r"\u001b]0;a\u0007", r"\u009b31m", "\u202ea", "$$", r"$\\frac{$", r"\u0000", r"\n\nlost: 1", "<b>&amp;", r"\U0001F600")) + '"')
+
+
 def scaled_number(chance, sections):
     def scaled(number):
         factor = chance.choice((0.5, 2, -1, 1 + 1e-15, 10.0 ** chance.randint(-14, 14), chance.random() * 3))
@@ -377,7 +392,7 @@ def changed_expression(chance, sections):
 # leave four systems in ten acceptable, so that they fly; rough ones are for the reader of files.
 GENTLE = ((plausible_extreme, 25), (scaled_number, 40), (other_word_of_its_kind, 10), (changed_expression, 6), (other_integrator, 8), (dropped_key, 4))
 ROUGH = ((extreme_number, 30), (scaled_number, 10), (other_word, 8), (broken_string, 8), (dropped_key, 5), (doubled_key, 2),
-         (moved_key, 4), (doubled_section, 3), (dropped_section, 2), (changed_list, 6), (number_to_list, 3))
+         (moved_key, 4), (doubled_section, 3), (dropped_section, 2), (changed_list, 6), (number_to_list, 3), (deep, 2), (hostile_text, 2))
 
 
 def flipped(chance, data):

@@ -2,10 +2,27 @@
 #include <filesystem>
 
 #include "carom/base/error.hpp"
+#include "carom_version.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/common.hpp"
 #include "cli/picture.hpp"
 
 namespace carom::cli {
+
+namespace {
+
+// Draws, and says with --json what was made.
+int drawn(const Options& options, const char* kind, const std::string& file) {
+  const int status = draw(options.system, file, options.force, options.what);
+  if (status != done || !options.json) return status;
+  io::Json json = io::Json::object();
+  json.set("version", version).set("system", options.system).set("kind", kind).set("file", file);
+  if (!options.what.empty()) json.set("what", options.what);
+  print(json.text() + "\n");
+  return done;
+}
+
+}  // namespace
 
 int animate(const Options& options) {
   std::string film = options.output;
@@ -13,7 +30,7 @@ int animate(const Options& options) {
   if (!film.ends_with(".gif") && !film.ends_with(".mp4"))
     throw InputError(Place{"command line", 0, 0, "-o"}, "'" + film + "' is not a film",
                      "a name ending in .gif or .mp4");
-  return draw(options.system, film, options.force);
+  return drawn(options, "film", film);
 }
 
 int plot(const Options& options) {
@@ -22,7 +39,7 @@ int plot(const Options& options) {
   if (!is_picture(picture))
     throw InputError(Place{"command line", 0, 0, "-o"}, "'" + picture + "' is not a picture",
                      "a name ending in .png, .svg or .pdf");
-  return draw(options.system, picture, options.force, options.what);
+  return drawn(options, "picture", picture);
 }
 
 }  // namespace carom::cli

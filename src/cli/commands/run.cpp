@@ -16,6 +16,7 @@
 #include "cli/common.hpp"
 #include "cli/reports/doubts.hpp"
 #include "cli/reports/run_report.hpp"
+#include "io/archive/stored_run.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {
@@ -174,6 +175,7 @@ int run(const Options& options) {
     if (!options.overrides.trust_tolerance.empty())
       throw InputError(Place{"command line", 0, 0, "--trust-tolerance"},
                        "the stored run has its own tolerance", "a new run");
+    io::check_stored(stored, loaded.system, options.resume);
     refuse_another_run(options, loaded, stored);
     catch_interrupts();
     how.resume = stored.particles;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/printable.hpp"
 #include "carom/base/exact_number.hpp"
 #include "carom_version.hpp"
 #include "cli/common.hpp"
@@ -166,14 +167,15 @@ std::string head(const SweepResult& result) {
                         counted(key.values.size(), "value"), key.key,
                         shown_value(key.values.front()), shown_value(key.values.back()));
   if (result.rows.empty())
-    return folded(result.title) + "\n" + folded(text + ": none was computed") + "\n";
+    return folded(base::printable(result.title)) + "\n" + folded(text + ": none was computed") +
+           "\n";
   const Json& first = result.rows.front().report;
   if (const double all = number_at(first, "trajectories");
       !std::isnan(all) && !sweeps(result.plan, "run.trajectories"))
     text += fmt::format(", {} each", counted(static_cast<std::uint64_t>(all), "trajectory"));
   if (const Json* seed = first.find("seed"); seed && !sweeps(result.plan, "run.seed"))
     text += fmt::format(", seed {} for each", seed->text());
-  return folded(result.title) + "\n" + folded(text) + "\n";
+  return folded(base::printable(result.title)) + "\n" + folded(text) + "\n";
 }
 
 std::string table(const SweepResult& result) {

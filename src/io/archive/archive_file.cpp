@@ -44,7 +44,7 @@ void sync(const std::string& path, int flags, const std::string& name) {
 
 // HDF5 would empty a file before it sees that another program has it open. It locks by flock.
 void refuse_open_elsewhere(const std::string& path, const std::string& name) {
-  const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return;  // it is not there, or cannot be written: that is said later
   const bool is_open = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   ::close(descriptor);
@@ -114,7 +114,11 @@ ArchiveFile ArchiveFile::create(const std::string& path, const std::string& name
   refuse_open_elsewhere(path, name);
   const Handle access = latest_format(name);
   errno = 0;
-  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose);
+  // As create_file, by HDF5's own open.
+  H5Eclear2(H5E_DEFAULT);
+  Handle file;
+  if (::unlink(path.c_str()) == 0 || errno == ENOENT)
+    file = Handle(H5Fcreate(path.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, access.get()), H5Fclose);
   if (!file) {
     const int error = errno;
     if (is_empty(path)) std::remove(path.c_str());  // it was begun, and there was no room

@@ -393,8 +393,8 @@ std::unique_ptr<RunArchive> RunArchive::extend(const std::string& source, const 
   std::error_code error;
   if (!std::filesystem::equivalent(source, target, error)) refuse_existing(target, force);
   const std::string copy = aside_of(target);
-  if (!std::filesystem::copy_file(source, copy, std::filesystem::copy_options::overwrite_existing,
-                                  error)) {
+  std::filesystem::remove(copy, error);  // never through a link: the copy is a new file
+  if (!std::filesystem::copy_file(source, copy, std::filesystem::copy_options::none, error)) {
     const std::string reason = error.message();
     std::filesystem::remove(copy, error);
     throw InputError("cannot write '" + copy + "': " + reason);

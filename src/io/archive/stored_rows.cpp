@@ -1,4 +1,6 @@
 // Reads back the rows of archives: hits and samples of a run, points of a section.
+#include <optional>
+
 #include "carom/base/error.hpp"
 #include "carom/io/archive.hpp"
 #include "io/archive/archive_file.hpp"
@@ -39,6 +41,11 @@ class Group {
   template <class Row, class T>
   void read(std::vector<Row>& rows, const char* column, T Row::*member) const {
     const std::vector<T> values = hdf5::read_column<T>(group_.get(), column, name_);
+    if (length_.value_or(values.size()) != values.size())
+      throw InputError(Place{name_, 0, 0, ""},
+                       std::string("'") + column + "' has another length than its neighbours",
+                       "an archive as carom wrote it");
+    length_ = values.size();
     rows.resize(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) rows[i].*member = values[i];
   }
@@ -60,6 +67,7 @@ class Group {
  private:
   std::string name_;
   Handle file_, group_;
+  mutable std::optional<std::size_t> length_;  // of all columns
 };
 
 }  // namespace

@@ -1,5 +1,11 @@
 // Reads back what a run that goes on needs of its archive.
+#include "io/archive/stored_run.hpp"
+
+#include <cmath>
+
 #include "carom/base/error.hpp"
+#include "carom/ensemble/injection.hpp"
+#include "carom/geometry/curve.hpp"
 #include "io/archive/archive_file.hpp"
 #include "io/archive/checksums.hpp"
 #include "io/archive/columns.hpp"
@@ -11,6 +17,37 @@ namespace carom {
 
 using namespace io;
 using hdf5::Handle;
+
+void io::check_stored(const StoredRun& run, const System& system, const std::string& file) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(Place{file, 0, 0, ""}, "'/state' " + what, "an archive as carom wrote it");
+  };
+  const std::size_t particles =
+      system.particles.size() +
+      (system.injections.empty() ? 0 : injected_count(system, run.trajectory.value_or(0)));
+  if (run.particles.size() != particles)
+    refuse("has " + std::to_string(run.particles.size()) + " particles, the system has " +
+           std::to_string(particles));
+  const auto walls = static_cast<std::int64_t>(system.table->walls.size()),
+             holes = static_cast<std::int64_t>(system.table->holes.size());
+  const auto one_of = [](std::int64_t index, std::int64_t count) {
+    return index >= -1 && index < count;
+  };
+  for (const ParticleProgress& p : run.particles) {
+    const State& s = p.state;
+    if (!one_of(s.wall, walls) || !one_of(p.last_wall, walls)) refuse("names a wall that is none");
+    if (!one_of(p.hole, holes)) refuse("names a hole that is none");
+    if (p.fate > last_fate) refuse("names a fate that is none");
+    for (const double x : {s.position.x, s.position.y, s.velocity.x, s.velocity.y, s.u, p.speed,
+                           s.time.value(), p.end.value()})
+      if (!std::isfinite(x)) refuse("holds what is no number");
+    if (p.end < s.time) refuse("has an end before its last event");
+    if (s.wall >= 0 &&
+        !(s.u >= 0.0 && s.u <= geometry::end_parameter(
+                                   system.table->walls[static_cast<std::size_t>(s.wall)].curve)))
+      refuse("is beyond the end of its wall");
+  }
+}
 
 StoredRun read_run(const std::string& name) {
   const Place place{name, 0, 0, ""};

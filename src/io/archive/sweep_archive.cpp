@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
@@ -77,11 +78,9 @@ bool extract(hid_t file, const std::string& name, std::size_t index, const std::
   const Handle value = open_group(file, path_of(index).c_str(), name);
   if (!hdf5::has(value.get(), archive_name)) return false;
   const auto bytes = hdf5::read_column<std::uint8_t>(value.get(), archive_name, name);
-  std::ofstream made(target, std::ios::binary);
-  made.write(reinterpret_cast<const char*>(bytes.data()),
-             static_cast<std::streamsize>(bytes.size()));
-  made.close();
-  hdf5::check(made.good(), target);
+  errno = 0;
+  hdf5::check(write_new_file(target, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}),
+              target);
   return true;
 }
 

@@ -14,6 +14,7 @@
 
 #include "carom/base/digest.hpp"
 #include "carom/base/error.hpp"
+#include "io/checkpoint/work_folder.hpp"
 
 namespace carom::io {
 
@@ -43,7 +44,7 @@ std::uint64_t hashed(std::uint64_t sum, const TrajectoryRecord* records, std::si
 
 RecordLog::RecordLog(const std::string& path, const std::string& name)
     : path_(path), name_(name), next_write_(enough_waiting) {
-  descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  descriptor_ = create_file(path);
   if (descriptor_ < 0) fail("write");
 }
 
@@ -51,7 +52,7 @@ RecordLog::RecordLog(const std::string& path, const std::string& name, std::vect
     : path_(path), name_(name), next_write_(enough_waiting), pieces_(std::move(pieces)) {
   for (const Piece& piece : pieces_) rows_ = std::max(rows_, piece.row + piece.rows);
   marked_ = pieces_;
-  descriptor_ = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+  descriptor_ = ::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC);
   if (descriptor_ < 0)
     throw InputError(Place{path, 0, 0, ""},
                      errno == ENOENT ? "there is no such file"

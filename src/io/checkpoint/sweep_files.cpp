@@ -1,8 +1,6 @@
 #include "io/checkpoint/sweep_files.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -29,20 +27,7 @@ std::string report_of(const std::string& file, std::size_t index) {
 void keep_text(const std::string& path, const std::string& text, const std::string& file) {
   const std::string aside = aside_of(file);
   errno = 0;
-  const int descriptor = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  std::size_t at = 0;
-  bool ok = descriptor >= 0;
-  while (ok && at < text.size()) {
-    const ssize_t count = ::write(descriptor, text.data() + at, text.size() - at);
-    if (count < 0 && errno == EINTR) continue;
-    ok = count > 0;
-    if (ok) at += static_cast<std::size_t>(count);
-  }
-  ok = ok && ::fsync(descriptor) == 0;
-  const int error = errno;
-  if (descriptor >= 0) ::close(descriptor);
-  errno = error;
-  if (!ok || std::rename(aside.c_str(), path.c_str()) != 0)
+  if (!write_new_file(aside, text, true) || std::rename(aside.c_str(), path.c_str()) != 0)
     throw InputError(fmt::format("cannot write '{}': {}", file, std::strerror(errno)));
 }
 

@@ -111,9 +111,11 @@ WorkFolder::WorkFolder(const std::string& file) : file_(file), lock_(lock_of(fil
 }
 
 bool WorkFolder::open_lock() {
-  descriptor_ = ::open(lock_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  constexpr int own = O_CREAT | O_NOFOLLOW | O_CLOEXEC;
+  descriptor_ = ::open(lock_.c_str(), O_RDWR | own, 0666);
   // Another user's file may be read alone, and locked even so.
-  if (descriptor_ < 0 && errno == EACCES) descriptor_ = ::open(lock_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor_ < 0 && errno == EACCES)
+    descriptor_ = ::open(lock_.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
   if (descriptor_ >= 0) return true;
   if (errno == ENOENT) return false;
   const std::string reason = std::strerror(errno);
@@ -144,6 +146,28 @@ bool io::exists(const std::string& file) {
 bool io::is_empty(const std::string& path) {
   std::error_code error;
   return fs::file_size(path, error) == 0 && !error;
+}
+
+int io::create_file(const std::string& path) {
+  if (::unlink(path.c_str()) != 0 && errno != ENOENT) return -1;
+  return ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+}
+
+bool io::write_new_file(const std::string& path, std::string_view bytes, bool synced) {
+  const int descriptor = create_file(path);
+  if (descriptor < 0) return false;
+  bool ok = true;
+  for (std::size_t at = 0; ok && at < bytes.size();) {
+    const ssize_t count = ::write(descriptor, bytes.data() + at, bytes.size() - at);
+    if (count < 0 && errno == EINTR) continue;
+    ok = count > 0;
+    if (ok) at += static_cast<std::size_t>(count);
+  }
+  ok = ok && (!synced || ::fsync(descriptor) == 0);
+  const int error = errno;
+  ok = ::close(descriptor) == 0 && ok;
+  if (!ok) errno = error;
+  return ok;
 }
 
 bool io::is_no_file(const std::string& path) {

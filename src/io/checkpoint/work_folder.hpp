@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace carom::io {
 
@@ -48,6 +49,13 @@ bool is_empty(const std::string& file);
 /// Is there something of this name that is no file: a device, a pipe, a folder? Nothing replaces
 /// it, and nothing reads it.
 bool is_no_file(const std::string& path);
+/// A descriptor of a new file of this name, which may be read and written; -1 and errno where it
+/// cannot be made. What had the name before is removed, and never followed: in a folder that others
+/// may write to, it may be a link to a file of the user's.
+int create_file(const std::string& path);
+/// A new file of this name with these bytes; false and errno where that fails. `synced`: they are
+/// on the disk then.
+bool write_new_file(const std::string& path, std::string_view bytes, bool synced = false);
 /// Throws InputError where `file`, which is to be written, is no file.
 void refuse_no_file(const std::string& file);
 

@@ -1,18 +1,18 @@
 #include "io/toml/number_lines.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
+#include "io/text_file.hpp"
 #include "io/toml/overrides.hpp"
 
 namespace carom::io {
 namespace {
 
 constexpr std::size_t most_rows = 1000000;
+/// A number with a thousand digits has its place; what is no text has no lines.
+constexpr std::size_t longest_line = 65536;
 
 bool digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -71,22 +71,24 @@ Value numbers_of_line(std::string line, const Place& place) {
 }
 
 Value rows_of_file(const std::string& name, const Place& key, const Row& row) {
-  std::error_code none;
-  std::ifstream file(name);
   const std::string numbers(row.numbers);
-  if (!file || std::filesystem::is_directory(name, none)) {
-    throw InputError(
-        key, "'" + name + "' cannot be read: " + (file ? "it is a folder" : std::strerror(errno)),
-        "a text file with " + numbers + " in each line");
-  }
+  const std::string text = text_of_file(name, most_of_number_file, key, "'" + name + "' ",
+                                        "a text file with " + numbers + " in each line");
   Value rows;
   rows.kind = Value::Kind::list;
   rows.place = key;
-  std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
+  std::size_t begin = 0;
+  for (int number = 1; begin < text.size(); ++number) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (end - begin > longest_line)
+      throw InputError({name, number, 1, ""},
+                       "a line of " + std::to_string(end - begin) + " characters",
+                       numbers + ", at most " + std::to_string(longest_line) + " characters");
+    std::string line = text.substr(begin, end - begin);
+    begin = end + 1;
     // Some editors begin a file with a byte-order mark.
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
-    Value one = numbers_of_line(line, {name, number, 1, ""});
+    Value one = numbers_of_line(std::move(line), {name, number, 1, ""});
     const std::size_t count = one.items.size();
     if (count == 0) continue;
     if (count < row.least || count > row.most) {

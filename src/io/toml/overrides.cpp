@@ -4,6 +4,7 @@
 #include <charconv>
 #include <utility>
 
+#include "io/toml/nesting.hpp"
 #include "io/toml/read.hpp"
 
 namespace carom::io {
@@ -17,6 +18,11 @@ struct Step {
 };
 
 std::vector<Step> steps_of(const std::string& path) {
+  const auto levels =
+      1 + std::count_if(path.begin(), path.end(), [](char c) { return c == '.' || c == '['; });
+  if (static_cast<std::size_t>(levels) > most_levels)
+    throw InputError(command_line("--set"), "a path of " + std::to_string(levels) + " levels",
+                     "at most " + std::to_string(most_levels));
   const InputError bad(command_line("--set"), "cannot read the path '" + path + "'",
                        "path.to.key=value, with an index as in table.hole[0].width=0.2");
   std::vector<Step> steps;

@@ -25,7 +25,7 @@ HoleSpec read_hole(Value& value, std::size_t index) {
   hole.center = as_number(section.get("center"));
   hole.width = as_number(section.get("width"));
   const std::string name = "hole_" + std::to_string(index + 1);
-  hole.name = as_text(section.fill("name", text_value(name, section.place_of("name"))));
+  hole.name = as_name(section.fill("name", text_value(name, section.place_of("name"))));
   return hole;
 }
 
@@ -51,7 +51,7 @@ ObstacleSpec read_obstacle(Value& value, std::size_t index) {
     obstacle.angle = as_angle(section.get("angle"));
   }
   const std::string name = "obstacle_" + std::to_string(index + 1);
-  obstacle.name = as_text(section.fill("name", text_value(name, section.place_of("name"))));
+  obstacle.name = as_name(section.fill("name", text_value(name, section.place_of("name"))));
   return obstacle;
 }
 
@@ -67,7 +67,7 @@ PieceSpec read_piece(Value& value) {
   piece.place = value.place;
   TomlSection section(value, "table.loop.pieces", ellipse ? "ellipse" : arc ? "arc" : "line");
   section.check_keys();
-  if (const Value* name = section.find("name")) piece.name = as_text(*name);
+  if (const Value* name = section.find("name")) piece.name = as_name(*name);
   if (arc) {
     piece.kind = PieceSpec::Kind::arc;
     piece.to = as_point(section.get("arc_to"));

@@ -3,12 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "carom/ensemble/choose_step.hpp"
@@ -16,6 +11,7 @@
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/single_run.hpp"
 #include "carom/events/decision_range.hpp"
+#include "io/text_file.hpp"
 #include "io/toml/overrides.hpp"
 #include "io/toml/read.hpp"
 
@@ -60,20 +56,6 @@ void complete_sections(Value& root) {
     ordered.set(name, written != nullptr ? *written : empty);
   }
   root = std::move(ordered);
-}
-
-std::string text_of_file(const std::string& name) {
-  const Place place{name, 0, 0, ""};
-  std::error_code error;
-  if (std::filesystem::is_directory(name, error))
-    throw InputError(place, "is a folder", "a TOML file");
-  errno = 0;
-  std::ifstream file(name, std::ios::binary);
-  if (!file)
-    throw InputError(place, "cannot be read: " + std::string(std::strerror(errno)), "a TOML file");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
 }
 
 // Steps end at the multiples of the step, which are counted in doubles. A run until its cap on hits
@@ -233,7 +215,10 @@ LoadedSystem read_system(std::string_view toml, const std::string& file,
 
 LoadedSystem load_system(const std::string& name, const SystemOverrides& overrides) {
   const bool is_file = name.find('/') != std::string::npos || name.ends_with(".toml");
-  return read_system(is_file ? text_of_file(name) : text_of_builtin(name), name, overrides);
+  if (!is_file) return read_system(text_of_builtin(name), name, overrides);
+  const std::string text =
+      io::text_of_file(name, io::most_of_system_file, {name, 0, 0, ""}, "", "a TOML file");
+  return read_system(text, name, overrides);
 }
 
 }  // namespace carom

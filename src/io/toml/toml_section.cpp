@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/printable.hpp"
 #include "carom/base/whole_number.hpp"
 #include "io/toml/overrides.hpp"
 
@@ -86,6 +87,14 @@ std::uint64_t as_count(const Value& value, std::uint64_t least, std::uint64_t mo
 
 const std::string& as_text(const Value& value) {
   if (value.kind != Value::Kind::text) wrong_type(value, "a string in quotes");
+  return value.text;
+}
+
+const std::string& as_name(const Value& value) {
+  if (base::printable(as_text(value)) != value.text)
+    throw InputError(value.place,
+                     "the name '" + value.text + "' has characters that cannot be seen",
+                     "a name without control characters");
   return value.text;
 }
 

@@ -23,6 +23,8 @@ ExactNumber as_angle(const Value& value);
 double as_positive(const Value& value);
 std::uint64_t as_count(const Value& value, std::uint64_t least, std::uint64_t most = UINT64_MAX);
 const std::string& as_text(const Value& value);
+/// The name of a wall, a hole or an obstacle: it is shown in messages, tables and pictures.
+const std::string& as_name(const Value& value);
 bool as_flag(const Value& value);
 ExactPoint as_point(const Value& value);
 geometry::Vector as_vector(const Value& value);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "io/toml/nesting.hpp"
 #include "io/toml/value.hpp"
 
 namespace carom::io {
@@ -121,6 +122,7 @@ void move_to(const Place& place, Value& value) {
 }  // namespace
 
 Value parse_document(std::string_view text, const std::string& file) {
+  check_nesting(text, file);
   try {
     const toml::table root = toml::parse(text, std::string_view(file));
     return Converter(text, file).convert(root, "");
@@ -132,6 +134,7 @@ Value parse_document(std::string_view text, const std::string& file) {
 }
 
 Value parse_value(const std::string& text, const Place& place) {
+  check_nesting_of_value(text, place);
   const std::string document = "value = " + text;
   try {
     const toml::table root = toml::parse(std::string_view(document), std::string_view("value"));
