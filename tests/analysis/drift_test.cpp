@@ -10,7 +10,7 @@ namespace carom {
 namespace {
 
 constexpr double end = 1000.0, from = 200.0, noise = 1.5;
-constexpr std::uint64_t orbits = 2000;
+constexpr std::uint64_t orbits = 400;
 // Of the mean over the window, whose growth has the variance noise^2 a unit of time.
 const double error = noise / std::sqrt((end - from) * orbits);
 
@@ -51,14 +51,14 @@ auto power(double alpha, double errors) {
 }
 
 TEST(Drift, IsSeenWhereItIsLargerThanTheError) {
-  EXPECT_LE(seen([](double) { return 0.0; }), 4);
-  EXPECT_LE(seen([](double t) { return -50.0 * std::exp(-t / 2.0); }), 12);
+  EXPECT_LE(seen([](double) { return 0.0; }), 9);
+  EXPECT_LE(seen([](double t) { return -50.0 * std::exp(-t / 2.0); }), 9);
   for (const double sign : {-1.0, 1.0}) {
     EXPECT_GE(seen(power(1.0, 3.0 * sign)), 190);
     EXPECT_GE(seen(power(2.0, 3.0 * sign)), 190);
     EXPECT_GE(seen(power(0.5, 7.0 * sign)), 190);
+    EXPECT_GE(seen(power(0.5, 4.0 * sign)), 100);
   }
-  EXPECT_LE(seen(power(1.0, 0.3)), 10);
 }
 
 TEST(Drift, GivesTheBiasOfARateThatFallsAsOneOverT) {
@@ -76,7 +76,8 @@ TEST(Drift, GivesTheBiasOfARateThatFallsAsOneOverT) {
   EXPECT_EQ(sums.orbits, 400u);
   const auto drift = drift_of(sums, {from, end}, {0.4, 1e-5});
   ASSERT_TRUE(drift && drift->seen);
-  EXPECT_NEAR(drift->bias.value, -0.6 * std::log(5.0) / 800.0, 1e-9);
+  EXPECT_NEAR(drift->fast.value, -0.6 * std::log(5.0) / 800.0, 1e-9);
+  EXPECT_LT(drift->slow.value, drift->fast.value);
 }
 
 TEST(Drift, IsNotTestedByFewOrbits) {

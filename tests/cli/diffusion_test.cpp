@@ -75,6 +75,19 @@ TEST(Diffusion, DoubtsItsCoefficientUnderACap) {
   EXPECT_EQ(json_value(shell(command + "1000000").out, "note"), "");
 }
 
+// From the walls half the integral of the correlations is .222 and not D = .170.
+TEST(Diffusion, DoubtsCorrelationsOfStartsThatAreNotStationary) {
+  const Shell shell;
+  const std::string command = "$carom diffusion lorentz-triangular --trajectories 200 --t-max 20 ";
+  const Outcome json = shell(command + "--set initial.kind=boundary --json");
+  EXPECT_NE(json_value(json.out, "note").find("D(t) need not tend to D"), std::string::npos)
+      << json.out;
+  EXPECT_NE(json_value(json.out, "starts").find("false"), std::string::npos) << json.out;
+  EXPECT_NE(on_one_line(shell(command + "--set initial.kind=boundary").out)
+                .find("the starts are not stationary"),
+            std::string::npos);
+}
+
 // Repeated they would be the same orbit, with an error of nothing.
 TEST(Diffusion, FliesAListedStartOnce) {
   const Shell shell;

@@ -24,9 +24,10 @@ TEST(Lyapunov, PrintsItsKeysAndOneDigest) {
   const Outcome one = shell(typed + "--threads 1"), two = shell(typed + "--threads 2");
   EXPECT_EQ(one.status, 0) << one.err;
   EXPECT_TRUE(is_json_object(one.out));
-  for (const char* key : {"version", "seconds", "trajectories", "orbits", "lost", "collisions",
-                          "digest", "window", "lambda", "per_collision", "block_errors",
-                          "long_enough", "distribution", "chaotic_share", "regularity", "notes"})
+  for (const char* key :
+       {"version", "seconds", "trajectories", "orbits", "lost", "collisions", "digest", "window",
+        "lambda", "per_collision", "block_errors", "long_enough", "distribution", "chaotic_share",
+        "regularity", "starts", "drift", "notes"})
     EXPECT_NE(json_value(one.out, key), "") << key;
   for (const char* key : {"digest", "lambda", "per_collision", "distribution", "chaotic_share"})
     EXPECT_EQ(json_value(one.out, key), json_value(two.out, key)) << key;
@@ -68,6 +69,23 @@ TEST(Lyapunov, OfRegularTablesIsZero) {
   }
 }
 
+// Starts on all walls have the measure of the map: those of the flow are drawn. Of others a drift
+// is doubted.
+TEST(Lyapunov, SaysHowItsStartsAreDistributed) {
+  const Shell shell;
+  const std::string typed = "$carom lyapunov stadium --closed --trajectories 20000 --t-max 400 ";
+  const Outcome all = shell(typed + "--json");
+  EXPECT_NE(json_value(all.out, "starts").find("uniform"), std::string::npos) << all.out;
+  EXPECT_EQ(json_value(all.out, "notes").find("drift"), std::string::npos) << all.out;
+  EXPECT_NE(on_one_line(shell(typed).out).find("in place of starts from all walls"),
+            std::string::npos);
+  const Outcome one = shell(typed + "--set initial.wall=bottom --json");
+  EXPECT_NE(json_value(one.out, "notes").find("lambda still drifts: it is too small"),
+            std::string::npos)
+      << one.out;
+  EXPECT_NE(json_value(one.out, "starts").find("false"), std::string::npos) << one.out;
+}
+
 TEST(Lyapunov, PartsOnTheDiskAddUpToTheWhole) {
   for (const char* starts : {"", "--set initial.kind=sobol "}) {
     const Shell shell;
@@ -80,7 +98,7 @@ TEST(Lyapunov, PartsOnTheDiskAddUpToTheWhole) {
     EXPECT_EQ(sum.status, 0) << sum.err;
     const Outcome again = shell("$carom lyapunov --resume sum.h5 --json");
     for (const char* key : {"digest", "lambda", "per_collision", "block_errors", "distribution",
-                            "chaotic_share", "regularity"}) {
+                            "chaotic_share", "regularity", "drift"}) {
       EXPECT_EQ(json_value(sum.out, key), json_value(whole.out, key)) << key;
       EXPECT_EQ(json_value(again.out, key), json_value(whole.out, key)) << key;
     }

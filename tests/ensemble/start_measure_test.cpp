@@ -82,7 +82,7 @@ TEST(StartMeasure, OfOneWallDrifts) {
   const auto drift = drift_of(r.drift, r.growth.window(), estimate_of(r.growth).per_time);
   ASSERT_TRUE(drift.has_value());
   EXPECT_TRUE(drift->seen);
-  EXPECT_LT(drift->bias.value, 0.0);
+  EXPECT_LT(drift->fast.value, 0.0);
 }
 
 }  // namespace

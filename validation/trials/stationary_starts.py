@@ -85,10 +85,14 @@ def doubted(result):
     return any("still drift" in note for note in result["notes"])
 
 
+def drift_text(result, error):
+    return ", ".join(f"{result['drift'][law]['value'] / error:+.1f}" for law in ("fast", "slow"))
+
+
 def kinds(quick):
     """Rows of the first table; the number that is wrong and not doubted."""
     count, until, orbits = (100_000, 200, 40_000) if quick else (1_000_000, 400, 400_000)
-    rows, wrong = [["a", "starts", "lambda", "stderr", "z", "drift / errors", "doubt"]], 0
+    rows, wrong = [["a", "starts", "lambda", "stderr", "z", "drift / errors: 1/t, 1/sqrt(t)", "doubt"]], 0
     for a in (0.5, 1, 2):
         truth, error = map_exponent(a, orbits, 400, 60, 1)
         rows.append([a, "map, per hit L/(pi A)", f"{truth:.5f}", f"{error:.5f}", "", "", ""])
@@ -98,7 +102,7 @@ def kinds(quick):
             value, own = result["lambda"][0]["value"], result["lambda"][0]["stderr"]
             z, doubt = (value - truth) / math.hypot(own, error), doubted(result)
             wrong += abs(z) > 3.5 and not doubt
-            rows.append([a, name, f"{value:.5f}", f"{own:.5f}", f"{z:+.1f}", f"{result['drift']['value'] / own:+.1f}",
+            rows.append([a, name, f"{value:.5f}", f"{own:.5f}", f"{z:+.1f}", drift_text(result, own),
                          "yes" if doubt else "no"])
     table(rows)
     return wrong

@@ -27,10 +27,11 @@ struct DriftSums {
   void merge(const DriftSums&);
 };
 
-/// What the exponent of the window would be off by if what it drifts by falls as 1/t.
+/// What the exponent of the window would be off by if what it drifts by falls as 1/t, and as
+/// 1/sqrt(t).
 struct Drift {
-  Estimate bias;
-  bool seen = false;  ///< it is significant, and larger than the error of the exponent
+  Estimate fast, slow;
+  bool seen = false;  ///< it is significant, and may be larger than the error of the exponent
 };
 /// None of fewer orbits than an error needs, or if no sums were kept. `exponent`: of the window.
 std::optional<Drift> drift_of(const DriftSums&, const TimeWindow&, const Estimate& exponent);

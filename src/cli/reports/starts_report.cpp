@@ -41,9 +41,12 @@ std::optional<Drift> drift_of_window(const LyapunovResult& result, const DriftSu
 
 Json drift_json(const std::optional<Drift>& drift) {
   if (!drift) return {};
+  const auto json = [](const Estimate& e) {
+    return Json::object().set("value", e.value).set("stderr", e.error);
+  };
   return Json::object()
-      .set("value", drift->bias.value)
-      .set("stderr", drift->bias.error)
+      .set("fast", json(drift->fast))
+      .set("slow", json(drift->slow))
       .set("seen", drift->seen);
 }
 
@@ -92,12 +95,11 @@ std::vector<std::string> drift_notes(const System& system, const LyapunovResult&
   const auto add = [&](const char* what, const DriftSums& sums, const Estimate& exponent) {
     const auto drift = drift_of_window(result, sums, exponent);
     if (!drift || !drift->seen) return;
-    const Estimate bias{std::fabs(drift->bias.value), drift->bias.error};
+    const double least = std::fabs(drift->fast.value), most = std::fabs(drift->slow.value);
     notes.push_back(fmt::format(
-        "the starts are not stationary ({}), and {} still drifts: if that falls as 1/t, it is too "
-        "{} by {}, {:.2g} of its errors. {}",
-        why, what, drift->bias.value > 0.0 ? "large" : "small", with_error(bias.value, bias.error),
-        bias.value / exponent.error,
+        "the starts are not stationary ({}), and {} still drifts: it is too {} by some {:.2g} if "
+        "that falls as 1/t, {:.2g} if as 1/sqrt(t). {}",
+        why, what, drift->fast.value > 0.0 ? "large" : "small", least, most,
         may_be_uniform(system) ? "Uniform starts (initial.kind = \"uniform\") do not drift"
                                : "A longer run drifts less"));
   };
