@@ -31,7 +31,7 @@ TIMES = (5, 20, 50, 100, 200, 500, 2000)
 def run(name, kind, orbits, time, seed):
     """(low, high) or None, and how many orbits are called regular without it."""
     words = SYSTEMS[name][0].replace("KIND", kind).split()
-    found = carom([*words, "--trajectories", str(orbits), "--t-max", str(time), "--seed", str(seed)])
+    found = carom(["lyapunov", *words, "--trajectories", str(orbits), "--t-max", str(time), "--seed", str(seed)])
     share = found["chaotic_share"]
     if share is None:
         return None, 0 if found["law"] == "linear" else found["regularity"]["regular"]
