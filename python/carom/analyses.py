@@ -49,7 +49,7 @@ def lyapunov(result, ax=None):
         ax.ticklabel_format(useOffset=False)
     if result.lambda_ is not None:
         value, error = (result.lambda_[0][key] for key in ("value", "stderr"))
-        known = error is not None and error == error
+        known = error is not None and error > 0
         ax.axvline(
             value, color=COLOURS[1], linewidth=1,
             label=f"λ = {value:.5g}" + (f" ± {error:.1g}" if known else ""),

@@ -29,6 +29,8 @@ std::uint64_t blocks_for(std::uint64_t orbits) {
 }
 
 double root(double square) { return std::sqrt(std::max(0.0, square)); }
+// Two independent errors.
+double both(double a, double b) { return std::sqrt(a * a + b * b); }
 
 }  // namespace
 
@@ -335,8 +337,8 @@ void estimate_share(const GrowthSums& sums, LyapunovEstimate& out) {
                  root(least_variance(found, n)) / n);
     counted = {share - error, share + error};
   }
-  const double low = std::hypot(share - counted.low, out.hidden),
-               high = std::hypot(counted.high - share, (most - hidden) / n);
+  const double low = both(share - counted.low, out.hidden),
+               high = both(counted.high - share, (most - hidden) / n);
   out.chaotic_share = {share, nan};
   out.share_interval = {std::max(0.0, share - low), std::min(1.0, share + high)};
   if (std::isfinite(low))
@@ -361,7 +363,7 @@ void estimate_chaotic(const GrowthSums& sums, LyapunovEstimate& out) {
     error = replicate_error(sums.parts(), numbers_of(t), [&](const Numbers& x) {
       return x.chaotic_growth / (x.chaotic * duration);
     });
-  out.chaotic = {mean, std::hypot(error, mean * out.hidden_error / out.chaotic_share.value)};
+  out.chaotic = {mean, both(error, mean * out.hidden_error / out.chaotic_share.value)};
 }
 
 // Runs of fewer mean flights do not call the growth of all orbits linear.
@@ -414,11 +416,11 @@ void estimate_law(const GrowthSums& sums, bool regular, LyapunovEstimate& out) {
   const double each = slow_growth / duration, old = out.per_time.value;
   out.per_time.value -= (1.0 - out.chaotic_share.value) * each;
   estimate_chaotic(sums, out);
-  double error = std::hypot(out.per_time.error, out.chaotic_share.error * each);
+  double error = both(out.per_time.error, out.chaotic_share.error * each);
   // Blocks of fewer orbits than these do not know that some are regular and others chaotic.
   if (t.orbits < GrowthSums::enough_blocks && others > 0.0 && n > 1.0)
-    error = std::hypot(error, root(found * others / (n - 1.0)) / found * out.per_time.value *
-                                  student_factor(t.orbits));
+    error = both(error, root(found * others / (n - 1.0)) / found * out.per_time.value *
+                            student_factor(t.orbits));
   if (old > 0.0) {
     out.per_hit.value *= out.per_time.value / old;
     out.per_hit.error *= error / out.per_time.error;

@@ -40,6 +40,15 @@ def test_lyapunov(program):
     assert result.distribution["count"].sum() == result.orbits == 300
 
 
+def test_what_exponents_do_not_tell_is_none():
+    short = carom.lyapunov("stadium", trajectories=50, t_max=20)
+    assert short.chaotic_share is None and "--t-max" in short.no_share
+    assert short.regularity.regular == 0
+    regular = carom.lyapunov(carom.circle(1), trajectories=20, t_max=20)
+    assert regular.law == "linear" and regular.lambda_[0]["value"] == 0.0 == regular.chaotic_share.value
+    regular.plot()
+
+
 def test_nothing_to_measure_is_refused_as_by_the_program():
     with pytest.raises(carom.InputError, match="too few to keep populations alive"):
         carom.lyapunov("three-disc", trajectories=10)

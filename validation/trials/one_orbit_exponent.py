@@ -33,7 +33,7 @@ def main():
         number = 300 if not options.quick else 20 if displaced else 60
         found = []
         for seed in range(1, number + 1):
-            words = command.split() + ["--seed", str(seed)]
+            words = ["lyapunov", *command.split(), "--seed", str(seed)]
             if displaced:
                 words += ["--set", f"initial.position=[0, -0.25{seed:07d}]"]
             found.append(carom(words))
