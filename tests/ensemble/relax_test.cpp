@@ -20,6 +20,12 @@ LoadedSystem wigner(int count, std::vector<std::pair<std::string, std::string>> 
   return load_system("wigner", set);
 }
 
+LoadedSystem built_in(const std::string& name, const std::string& count) {
+  SystemOverrides set;
+  set.set = {{"particles.count", count}};
+  return load_system(name, set);
+}
+
 RelaxResult relaxed(const System& system, std::uint64_t starts, bool saddles = false) {
   RelaxOptions how;
   how.starts = starts;
@@ -55,6 +61,54 @@ TEST(Relax, WignerMoleculesHaveTheirEnergiesAndModes) {
     EXPECT_EQ(found.without, 0u);
     // Starts are many, shapes few: what is turned or reflected counts once.
     EXPECT_LE(found.equilibria.size(), n == 5 ? 2u : 1u) << n;
+  }
+}
+
+// Shells of 4 and 9, or of 6 and 12 or 7 about one, turn against each other at frequencies of 1e-5
+// and less; charges inside a ring of charges likewise. Every search ends at a minimum all the same.
+TEST(Relax, SoftShellsAreFollowedToTheirMinima) {
+  const RelaxResult thirteen = relaxed(wigner(13).system, 40);
+  EXPECT_EQ(thirteen.without, 0u);
+  ASSERT_EQ(thirteen.equilibria.size(), 1u);
+  const Equilibrium& ground = thirteen.equilibria.front();
+  EXPECT_EQ(ground.found, 40u);
+  EXPECT_EQ(ground.neutral, 1);
+  EXPECT_LT(ground.modes[24].frequency, 1e-3);
+  // A soft direction leads far, but not up.
+  EXPECT_GT(ground.position_error, 1e-9);
+  EXPECT_LT(ground.energy_error, 1e-12 * ground.energy);
+  const RelaxResult nineteen = relaxed(wigner(19).system, 30);
+  EXPECT_EQ(nineteen.without, 0u);
+  EXPECT_EQ(nineteen.equilibria.size(), 2u);
+}
+
+TEST(Relax, RingsOfChargesTurnAboutOthers) {
+  const LoadedSystem loaded = built_in("coulomb-circle", "19");
+  const RelaxResult found = relaxed(loaded.system, 8);
+  EXPECT_EQ(found.without, 0u);
+  for (const Equilibrium& e : found.equilibria) EXPECT_TRUE(e.minimum());
+}
+
+// What is looked for has no kinetic energy: less than that of the lowest minimum is no hindrance.
+TEST(Relax, TheEnergyOfTheParticlesDoesNotLimitTheStarts) {
+  const RelaxResult low = relaxed(wigner(5, {{"particles.energy", "1"}}).system, 30),
+                    high = relaxed(wigner(5).system, 30);
+  ASSERT_EQ(low.equilibria.size(), 2u);
+  EXPECT_EQ(low.equilibria[0].found, high.equilibria[0].found);
+  EXPECT_EQ(low.equilibria[0].positions, high.equilibria[0].positions);
+}
+
+// Five particles that do not act on each other have each frequency five times.
+TEST(Relax, DegenerateModesInAFieldAreFound) {
+  const LoadedSystem loaded = built_in("antidot-magnetic", "5");
+  const RelaxResult found = relaxed(loaded.system, 5, true);
+  ASSERT_FALSE(found.equilibria.empty());
+  const Equilibrium& ground = found.equilibria.front();
+  ASSERT_EQ(ground.modes.size(), 10u);
+  for (std::size_t k = 0; k < 5; ++k) {
+    // The product of both is the curvature over the mass, their difference the field.
+    EXPECT_NEAR(ground.modes[k].frequency - ground.modes[5 + k].frequency, 2.0, 1e-13);
+    EXPECT_NEAR(ground.modes[k].frequency, ground.modes[0].frequency, 1e-13);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "ensemble/relax/eigen.hpp"
 
+#include <gsl/gsl_complex_math.h>
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_matrix.h>
 
@@ -34,6 +35,40 @@ void sort(std::vector<NormalMode>& modes) {
   });
 }
 
+// At a minimum, with S S = D and a = S q: (a, p)' = (S p, -S a + G p). That matrix is
+// antisymmetric, so that i times it is Hermitian, whose eigenvalues are found whatever degeneracies
+// there are; they come in pairs of both signs.
+std::vector<NormalMode> stable_modes_in_field(const Eigen& d, const Matrix& g, double zero) {
+  const std::size_t n = g.n;
+  Matrix root(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double size = std::sqrt(std::fmax(d.values[k], 0.0));
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) root(i, j) += size * d.vectors(k, i) * d.vectors(k, j);
+  }
+  const GslPointer<gsl_matrix_complex, gsl_matrix_complex_free> matrix(
+      gsl_matrix_complex_calloc(2 * n, 2 * n));
+  const auto set = [&](std::size_t i, std::size_t j, double value) {
+    gsl_matrix_complex_set(matrix.get(), i, j, gsl_complex_rect(0.0, value));
+  };
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) {
+      set(i, n + j, root(i, j));
+      set(n + i, j, -root(i, j));
+      set(n + i, n + j, g(i, j));
+    }
+  const GslPointer<gsl_vector, gsl_vector_free> values(gsl_vector_alloc(2 * n));
+  const GslPointer<gsl_eigen_herm_workspace, gsl_eigen_herm_free> space(
+      gsl_eigen_herm_alloc(2 * n));
+  if (gsl_eigen_herm(matrix.get(), values.get(), space.get()) != 0)
+    throw InternalError("the eigenvalues of a minimum in a field did not converge");
+  std::sort(values->data, values->data + 2 * n);
+  std::vector<NormalMode> modes;
+  for (std::size_t i = n; i < 2 * n; ++i) modes.push_back(mode_of(0.0, values->data[i], zero));
+  sort(modes);
+  return modes;
+}
+
 // With q' = p: the real matrix of (q, p)' = (p, -D q + G p), D and G by square roots of masses. Its
 // eigenvalues come in pairs s, s* and, as time can be reversed with the field, s, -s*.
 std::vector<NormalMode> modes_in_field(const Matrix& d, const Matrix& g, double rounding) {
@@ -48,6 +83,11 @@ std::vector<NormalMode> modes_in_field(const Matrix& d, const Matrix& g, double 
       norm = std::max({norm, std::fabs(d(i, j)), std::fabs(g(i, j))});
     }
   }
+  // A double zero (a symmetry: rest and drift) is a Jordan block, which an error splits by its
+  // root.
+  const double zero = std::sqrt(rounding + 0x1p-52 * static_cast<double>(2 * n) * norm);
+  if (const Eigen curvature = eigen_of(d); curvature.values.front() >= -rounding)
+    return stable_modes_in_field(curvature, g, zero);
   const MatrixPointer matrix = copy_of(all);
   const GslPointer<gsl_eigen_nonsymm_workspace, gsl_eigen_nonsymm_free> space(
       gsl_eigen_nonsymm_alloc(2 * n));
@@ -55,10 +95,7 @@ std::vector<NormalMode> modes_in_field(const Matrix& d, const Matrix& g, double 
   const GslPointer<gsl_vector_complex, gsl_vector_complex_free> values(
       gsl_vector_complex_alloc(2 * n));
   if (gsl_eigen_nonsymm(matrix.get(), values.get(), space.get()) != 0)
-    throw InternalError("the eigenvalues of an equilibrium in a field did not converge");
-  // A double zero (a symmetry: rest and drift) is a Jordan block, which an error splits by its
-  // root.
-  const double zero = std::sqrt(rounding + 0x1p-52 * static_cast<double>(2 * n) * norm);
+    throw InternalError("the eigenvalues of a saddle in a field did not converge");
   // Of each pair of equal size and opposite sign one is a mode.
   std::vector<NormalMode> both;
   for (std::size_t i = 0; i < 2 * n; ++i)

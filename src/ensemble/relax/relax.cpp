@@ -76,6 +76,7 @@ Found found_of(const Landscape& landscape, const Rest& rest, std::uint64_t start
     far = std::fmax(far, std::fmax(std::fabs(p.position.x), std::fabs(p.position.y)));
   }
   double steepest = 0.0, flattest = std::numeric_limits<double>::infinity();
+  double flatness = 0.0;  // the sum of 1/curvature
   for (const double curvature : eigen_of(rest.shape.curvature).values) {
     steepest = std::fmax(steepest, std::fabs(curvature));
     if (std::fabs(curvature) <= rest.shape.curvature_error) {
@@ -83,15 +84,19 @@ Found found_of(const Landscape& landscape, const Rest& rest, std::uint64_t start
       continue;
     }
     flattest = std::fmin(flattest, std::fabs(curvature));
+    flatness += 1.0 / std::fabs(curvature);
     if (curvature < 0.0) ++e.descending;
   }
   // Newton's last step, the rounding of the coordinates themselves, and that of the slopes, which
   // moves the place where they vanish.
   const auto n = static_cast<double>(freedom(rest.sites));
+  const double coordinates = 0x1p-52 * far;
   e.position_error =
-      rest.last_step + 0x1p-52 * far + std::sqrt(n) * rest.shape.slope_error / flattest;
-  // What the energy rises by within the error of all coordinates.
-  e.energy_error += 0.5 * n * steepest * e.position_error * e.position_error;
+      rest.last_step + coordinates + std::sqrt(n) * rest.shape.slope_error / flattest;
+  // What the energy rises by within the error of all coordinates: their rounding, and where the
+  // slopes' rounding leads, far along a soft direction, but not up.
+  e.energy_error += 0.5 * n * steepest * coordinates * coordinates +
+                    0.5 * n * rest.shape.slope_error * rest.shape.slope_error * flatness;
   e.modes = normal_modes(landscape, rest.sites, rest.shape);
   e.first = start;
   e.found = 1;
@@ -112,7 +117,7 @@ class Searcher {
            std::vector<std::optional<Outcome>>& outcomes, std::atomic<std::uint64_t>& done,
            std::mutex& mutex)
       : landscape_(system),
-        world_(make_world(system)),
+        world_(*system.table),
         sampler_(sampler),
         options_(options),
         outcomes_(outcomes),
@@ -173,10 +178,12 @@ void refuse(const System& system) {
 
 }  // namespace
 
-RelaxResult run_relax(const System& system, const RelaxOptions& options) {
+RelaxResult run_relax(const System& given, const RelaxOptions& options) {
   const Stopwatch watch;
-  refuse(system);
-  check_start(system, options.interrupted);
+  refuse(given);
+  // Where particles are let go no energy limits.
+  System system = given;
+  system.energies.clear();
   // GSL's own handler ends the program; its functions return what went wrong as well.
   gsl_set_error_handler_off();
   const std::uint64_t listed = listed_trajectories(system);

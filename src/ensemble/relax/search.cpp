@@ -2,12 +2,13 @@
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_errno.h>
-#include <gsl/gsl_multimin.h>
 #include <gsl/gsl_multiroots.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "ensemble/relax/eigen.hpp"
 #include "ensemble/relax/gsl_pointer.hpp"
@@ -34,18 +35,10 @@ struct Problem {
 };
 Sites at(const Problem& p, const gsl_vector* x) { return p.landscape.displaced(p.base, x->data); }
 
-double energy_at(const gsl_vector* x, void* problem) {
-  const auto& p = *static_cast<const Problem*>(problem);
-  return p.landscape.energy(at(p, x));
-}
 void slope_at(const gsl_vector* x, void* problem, gsl_vector* slope) {
   const auto& p = *static_cast<const Problem*>(problem);
   const std::vector<double> g = p.landscape.slope(at(p, x));
   std::copy(g.begin(), g.end(), slope->data);
-}
-void both_at(const gsl_vector* x, void* problem, double* energy, gsl_vector* slope) {
-  *energy = energy_at(x, problem);
-  slope_at(x, problem, slope);
 }
 int slopes_at(const gsl_vector* x, void* problem, gsl_vector* slope) {
   slope_at(x, problem, slope);
@@ -75,124 +68,242 @@ double extent(const Sites& sites, const Sites& start) {
   return size;
 }
 
-/// The length of what a turn about the middle moves, of several particles; of one, its way so far.
-double radius(const Sites& sites, const Sites& start) {
-  Vector middle{};
-  for (const Site& s : sites) middle = middle + s.position;
-  middle =
-      sites.size() == 1 ? start[0].position : (1.0 / static_cast<double>(sites.size())) * middle;
+double length(const std::vector<double>& v) {
   double square = 0.0;
-  for (const Site& s : sites) square += dot(s.position - middle, s.position - middle);
+  for (const double x : v) square += x * x;
   return std::sqrt(square);
 }
 
-/// Where a slope g is left, a turn of all by an angle has the curvature x g/x^2 instead of none
-/// (J g = H J x). Twice its bound.
-double curvature_of_turns(const Shape& shape, double radius) {
-  double square = 0.0;
-  for (const double g : shape.slope) square += g * g;
-  return square == 0.0 ? 0.0 : 2.0 * std::sqrt(square) / radius;
+double product(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
 }
 
-/// Newton's step along all directions that have a curvature.
-std::vector<double> newton_step(const Shape& shape, double radius) {
-  const Eigen eigen = eigen_of(shape.curvature);
-  std::vector<double> step(shape.slope.size(), 0.0);
-  const double none = std::fmax(shape.curvature_error, curvature_of_turns(shape, radius));
-  for (std::size_t k = 0; k < step.size(); ++k) {
-    if (std::fabs(eigen.values[k]) <= none) continue;
-    double along = 0.0;
-    for (std::size_t i = 0; i < step.size(); ++i) along += eigen.vectors(k, i) * shape.slope[i];
-    for (std::size_t i = 0; i < step.size(); ++i)
-      step[i] -= along / eigen.values[k] * eigen.vectors(k, i);
+/// The energy about a configuration to second order, along the curvature's own directions: the sum
+/// of g_k p_k + curvature_k p_k^2/2.
+class Model {
+ public:
+  explicit Model(const Shape& shape) : eigen_(eigen_of(shape.curvature)) {
+    const std::size_t n = shape.slope.size();
+    // Slopes that rounding could have made of none are none.
+    const double none = std::sqrt(static_cast<double>(n)) * shape.slope_error;
+    for (std::size_t k = 0; k < n; ++k) {
+      double along = 0.0;
+      for (std::size_t i = 0; i < n; ++i) along += eigen_.vectors(k, i) * shape.slope[i];
+      all_slopes_.push_back(along);
+      slope_.push_back(std::fabs(along) > none ? along : 0.0);
+      double& curvature = eigen_.values[k];
+      if (std::fabs(curvature) <= shape.curvature_error) curvature = 0.0;
+    }
   }
-  return step;
-}
+
+  /// Is there no slope and no way down?
+  bool rests() const {
+    return lowest() >= 0.0 &&
+           std::all_of(slope_.begin(), slope_.end(), [](double g) { return g == 0.0; });
+  }
+
+  /// A displacement, and by how much the energy falls on it.
+  struct Step {
+    std::vector<double> by;
+    double fall = 0.0, length = 0.0;
+    bool newton = false;  ///< to the model's minimum
+  };
+
+  /// The lowest place within a distance: p_k = -g_k/(curvature_k + shift), with the least shift >=
+  /// 0 that makes all denominators positive and p short enough (More and Sorensen 1983). Where the
+  /// slope has no part along the most negative curvature p may be too short: it goes on there.
+  Step lowest_within(double radius) const {
+    const double least = std::fmax(0.0, -lowest());
+    double shift = least, rest = 0.0;
+    if (const double way = way_at(least); way <= radius) {
+      if (lowest() < 0.0) rest = std::sqrt((radius - way) * (radius + way));
+    } else {
+      // |p| <= |g|/(shift - least).
+      double low = least, high = least + carom::ensemble::length(slope_) / radius;
+      for (int i = 0; i < 100; ++i) {
+        shift = 0.5 * (low + high);
+        if (shift == low || shift == high) break;
+        (way_at(shift) > radius ? low : high) = shift;
+      }
+      shift = high;
+    }
+    std::vector<double> p;
+    for (std::size_t k = 0; k < slope_.size(); ++k)
+      p.push_back(slope_[k] == 0.0 ? 0.0 : -slope_[k] / (eigen_.values[k] + shift));
+    if (rest > 0.0) p[0] += rest;
+    return along(p, shift == 0.0);
+  }
+
+  /// Newton's step along all directions that have a curvature.
+  Step newton() const {
+    std::vector<double> p;
+    for (std::size_t k = 0; k < slope_.size(); ++k)
+      p.push_back(eigen_.values[k] == 0.0 ? 0.0 : -all_slopes_[k] / eigen_.values[k]);
+    return along(p, true);
+  }
+
+ private:
+  double lowest() const { return eigen_.values.empty() ? 0.0 : eigen_.values.front(); }
+  double way_at(double shift) const {
+    double square = 0.0;
+    for (std::size_t k = 0; k < slope_.size(); ++k) {
+      if (slope_[k] == 0.0) continue;
+      const double p = slope_[k] / (eigen_.values[k] + shift);
+      square += p * p;  // infinite where nothing bends
+    }
+    return std::sqrt(square);
+  }
+  Step along(const std::vector<double>& p, bool newton) const {
+    Step step;
+    step.newton = newton;
+    step.by.assign(p.size(), 0.0);
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      for (std::size_t i = 0; i < p.size(); ++i) step.by[i] += p[k] * eigen_.vectors(k, i);
+      step.fall -= p[k] * (slope_[k] + 0.5 * eigen_.values[k] * p[k]);
+    }
+    step.length = carom::ensemble::length(p);
+    return step;
+  }
+
+  Eigen eigen_;  ///< curvatures below their rounding are 0
+  std::vector<double> slope_, all_slopes_;
+};
 
 constexpr int most_newton_steps = 60;
-/// A slope that falls for ever looks like a line search that has to begin anew, again and again.
-constexpr int most_renewals = 3;
+/// Below the root of rounding, in units of the configuration, Newton's next step is about the
+/// square of this one: rounding alone.
+constexpr double small_step = 0x1p-26;
 
-/// Steps until they do not become smaller any more. Newton's method doubles the digits: what is
-/// left after a step below the root of the rounding unit, in units of the configuration, is
-/// rounding.
+/// From near a place without slopes: Newton's steps until they do not become smaller any more.
 std::optional<Rest> refined(const Landscape& landscape, Sites sites, const Sites& start,
                             const Stopped& stopped) {
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_newton_steps; ++i) {
     if (stopped()) return {};
     Shape shape = landscape.shape(sites);
-    const double around = radius(sites, start);
-    const std::vector<double> step = newton_step(shape, around);
-    const double length = largest(step);
-    if (!std::isfinite(length)) return {};
-    // Below the root of rounding the next step, about its square, is rounding alone: from there on
-    // steps that no longer halve say that rounding is reached. A larger bound would only look
-    // sooner.
-    const bool small = length <= 0x1p-26 * extent(sites, start);
-    const bool all = curvature_of_turns(shape, around) <= shape.curvature_error;
-    if (length == 0.0 && !all) return {};
-    if (small && all && (length == 0.0 || !(length < 0.5 * last)))
-      return Rest{std::move(sites), std::move(shape), length};
-    last = length;
+    const std::vector<double> step = Model(shape).newton().by;
+    const double size = largest(step);
+    if (!std::isfinite(size)) return {};
+    // Steps that no longer halve say that rounding is reached, in what is small or without slopes.
+    const bool near =
+        size <= small_step * extent(sites, start) || largest(shape.slope) <= shape.slope_error;
+    if (near && !(size < 0.5 * last)) return Rest{std::move(sites), std::move(shape), size};
+    if (size == 0.0) {
+      if (largest(shape.slope) > shape.slope_error) return {};
+      return Rest{std::move(sites), std::move(shape), size};
+    }
+    last = size;
     sites = landscape.displaced(sites, step.data());
   }
   return {};
 }
 
-/// Moves away along the steepest descent of a saddle, far enough for the minimiser to see a slope;
-/// false where there is none.
-bool leave_saddle(const Landscape& landscape, Sites& sites, const Shape& shape,
-                  const Sites& start) {
-  const Eigen eigen = eigen_of(shape.curvature);
-  if (eigen.values.empty() || !(eigen.values[0] < -shape.curvature_error)) return false;
-  std::vector<double> step(eigen.values.size());
-  for (std::size_t i = 0; i < step.size(); ++i)
-    step[i] = 0x1p-10 * radius(sites, start) * eigen.vectors(0, i);
-  sites = landscape.displaced(sites, step.data());
-  return true;
-}
-
-/// Runs the minimiser until slopes are small, or a particle leaves the table, which is then on its
-/// wall. False where the energy has no value or falls for ever.
-enum class Ended { low, at_wall, nowhere };
-Ended minimise(const Landscape& landscape, const World& world, Sites& sites,
-               const Stopped& stopped) {
-  const std::size_t n = freedom(sites);
-  if (n == 0) return Ended::low;
-  const Sites base = sites;
-  Problem problem{landscape, base};
-  gsl_multimin_function_fdf function{energy_at, slope_at, both_at, n, &problem};
-  const VectorPointer x(gsl_vector_calloc(n));
-  const GslPointer<gsl_multimin_fdfminimizer, gsl_multimin_fdfminimizer_free> minimiser(
-      gsl_multimin_fdfminimizer_alloc(gsl_multimin_fdfminimizer_vector_bfgs2, n));
-  // The first trial step is a hundredth of what is there; 0.1: GSL's advice for its line search.
-  double size = 0.0;
-  for (const Site& p : base)
-    size = std::fmax(size, std::fmax(std::fabs(p.position.x), std::fabs(p.position.y)));
-  const double first = largest(landscape.slope(base));
-  if (first == 0.0) return Ended::low;
-  if (!std::isfinite(first)) return Ended::nowhere;
-  gsl_multimin_fdfminimizer_set(minimiser.get(), &function, x.get(),
-                                0.01 * (size > 0.0 ? size : 1.0), 0.1);
-  const bool walls = !landscape.frames().empty();
-  const std::size_t most = 1000 + 100 * n;
-  for (std::size_t i = 0; i < most; ++i) {
-    if (stopped()) return Ended::nowhere;
-    const int status = gsl_multimin_fdfminimizer_iterate(minimiser.get());
-    if (!std::isfinite(minimiser->f)) return Ended::nowhere;
-    Sites now = at(problem, minimiser->x);
-    const bool out =
-        walls && (keep_inside(landscape, world, sites, now) | turn_corners(landscape, now));
-    sites = std::move(now);
-    if (out) return Ended::at_wall;
-    // Soft directions come last: Newton's method goes on from where 1e-10 of the first slope is
-    // left.
-    if (status != GSL_SUCCESS || gsl_blas_dnrm2(minimiser->gradient) <= 0x1p-33 * first)
-      return Ended::low;
+/// The way down from a start, in steps to the lowest place of the energy's second-order model
+/// within a radius in which that model holds (a trust region).
+class Descent {
+ public:
+  Descent(const Landscape& landscape, const World& world, Sites start, const Stopped& stopped)
+      : landscape_(landscape), world_(world), stopped_(stopped), start_(start) {
+    put(std::move(start));
+    size_ = extent(start_, start_);
+    if (!(size_ > 0.0)) size_ = 1.0;
+    radius_ = first_radius * size_;
   }
-  return Ended::nowhere;
-}
+
+  std::optional<Rest> run() {
+    const std::size_t most = 1000 + 200 * start_.size();
+    for (std::size_t i = 0; i < most && !stopped_(); ++i) {
+      if (!std::isfinite(energy_) || !std::isfinite(largest(shape_.slope))) return {};
+      // Where nothing holds the particles the energy falls for ever.
+      if (extent(sites_, start_) > far_away * size_) return {};
+      const Model model(shape_);
+      const Model::Step step = model.lowest_within(radius_);
+      const bool near = step.newton && largest(step.by) <= small_step * extent(sites_, start_);
+      if (model.rests() || near) {
+        std::optional<Rest> rest = refined(landscape_, sites_, start_, stopped_);
+        if (rest && is_end(*rest)) return rest;
+        if (rest) continue;
+        if (model.rests()) return {};
+      }
+      try_step(model, step);
+      if (radius_ < 0x1p-60 * size_) return {};
+    }
+    return {};
+  }
+
+ private:
+  /// In units of the size of the start. A longer first step looks farther: with a 32nd charges in a
+  /// circle do not come to their lowest minimum in 100 searches, with 1 in every twentieth.
+  static constexpr double first_radius = 1.0;
+  static constexpr double far_away = 0x1p40;
+  static constexpr double poor = 0.25, good = 0.75;  ///< shares of the fall that the model promises
+
+  void put(Sites sites) {
+    sites_ = std::move(sites);
+    energy_ = landscape_.energy(sites_);
+    shape_ = landscape_.shape(sites_);
+  }
+
+  /// Walls hold all that is outside. Is anything?
+  bool hold(const Sites& before, Sites& now) const {
+    if (landscape_.frames().empty()) return false;
+    return keep_inside(landscape_, world_, before, now) | turn_corners(landscape_, now);
+  }
+
+  /// No: particles left the table on the last steps, or a wall does not hold one any more. Then
+  /// the search goes on from there.
+  bool is_end(Rest& rest) {
+    if (hold(sites_, rest.sites)) {
+      put(std::move(rest.sites));
+      return false;
+    }
+    Sites released = rest.sites;
+    if (!release_one(landscape_, released, rest.shape.slope_error)) return true;
+    put(std::move(released));
+    return false;
+  }
+
+  void try_step(const Model& model, Model::Step step) {
+    for (;;) {
+      Sites there = landscape_.displaced(sites_, step.by.data());
+      const bool held = hold(sites_, there);
+      const double energy = landscape_.energy(there);
+      Shape shape;
+      double share = -1.0;  // of the fall
+      const double rounding = landscape_.energy_error(sites_);
+      if (std::isfinite(energy)) {
+        shape = landscape_.shape(there);
+        double fall = energy_ - energy;
+        // A fall that is lost in rounding is seen in the slopes.
+        if (!held && step.fall < 64.0 * rounding)
+          fall = -0.5 * (product(shape_.slope, step.by) + product(shape.slope, step.by));
+        share = held && fall >= -rounding ? 0.5 : fall / step.fall;
+      }
+      if (!(share > poor))
+        radius_ = 0.25 * step.length;
+      else if (share > good && step.length > 0.99 * radius_)
+        radius_ *= 2.0;
+      if (share > 0.0) {
+        sites_ = std::move(there);
+        energy_ = energy;
+        shape_ = std::move(shape);
+        return;
+      }
+      if (stopped_() || radius_ < 0x1p-60 * size_) return;
+      step = model.lowest_within(radius_);
+    }
+  }
+
+  const Landscape& landscape_;
+  const World& world_;
+  const Stopped& stopped_;
+  const Sites start_;
+  Sites sites_;
+  double energy_ = 0.0, size_ = 0.0, radius_ = 0.0;
+  Shape shape_;
+};
 
 bool inside(const World& world, const Sites& sites) {
   return std::all_of(sites.begin(), sites.end(),
@@ -201,34 +312,9 @@ bool inside(const World& world, const Sites& sites) {
 
 }  // namespace
 
-std::optional<Rest> downhill(const Landscape& landscape, const World& world, Sites sites,
+std::optional<Rest> downhill(const Landscape& landscape, const World& world, Sites start,
                              const Stopped& stopped) {
-  const Sites start = sites;
-  // Each particle may come to a wall and leave it some times.
-  const std::size_t most = 20 + 10 * sites.size();
-  double lowest = std::numeric_limits<double>::infinity();
-  int renewed = 0;
-  for (std::size_t i = 0; i < most; ++i) {
-    const Ended ended = minimise(landscape, world, sites, stopped);
-    if (ended == Ended::nowhere) return {};
-    if (ended == Ended::at_wall) continue;
-    std::optional<Rest> rest = refined(landscape, sites, start, stopped);
-    if (!rest) {
-      // The line search may come to its end far from a minimum; from there it begins anew.
-      const double energy = landscape.energy(sites);
-      if (stopped() || !(energy < lowest) || ++renewed > most_renewals) return {};
-      lowest = energy;
-      continue;
-    }
-    if (keep_inside(landscape, world, sites, rest->sites) | turn_corners(landscape, rest->sites)) {
-      sites = rest->sites;
-      continue;
-    }
-    sites = rest->sites;
-    if (leave_saddle(landscape, sites, rest->shape, start)) continue;
-    if (!release_one(landscape, sites)) return rest;
-  }
-  return {};
+  return Descent(landscape, world, std::move(start), stopped).run();
 }
 
 std::optional<Rest> level(const Landscape& landscape, const World& world, Sites sites,

@@ -1,4 +1,4 @@
-// From a start to an equilibrium, by GSL and Newton's method.
+// From a start to an equilibrium, by a trust region and Newton's method.
 #pragma once
 
 #include <functional>
@@ -19,8 +19,8 @@ struct Rest {
 /// Asked now and then; true: stop, nothing is found.
 using Stopped = std::function<bool()>;
 
-/// Downhill (Broyden, Fletcher, Goldfarb, Shanno) from `start`, along walls where the forces press
-/// particles on them; then to rounding by Newton's method. Empty where the energy falls for ever.
+/// Downhill from `start` by a trust region, along walls where the forces press particles on them;
+/// then to rounding by Newton's method. Empty where the energy falls for ever.
 std::optional<Rest> downhill(const Landscape&, const World&, Sites start, const Stopped&);
 
 /// To a place without slopes of any kind, saddles too, by Powell's hybrid method. Empty where it

@@ -58,10 +58,10 @@ bool keep_inside(const Landscape& landscape, const World& world, const Sites& be
   return changed;
 }
 
-bool release_one(const Landscape& landscape, Sites& sites) {
+bool release_one(const Landscape& landscape, Sites& sites, double least) {
   const std::vector<Vector> force = landscape.forces(sites);
   std::size_t best = sites.size();
-  double most = 0.0;
+  double most = least;
   Site released;
   const auto offer = [&](std::size_t i, double pull, const Site& to) {
     if (!(pull > most)) return;

@@ -14,7 +14,7 @@ bool keep_inside(const Landscape&, const World&, const Sites& before, Sites& now
 bool turn_corners(const Landscape&, Sites&);
 
 /// Lets the particle go that its force pulls most off its wall, or out of its corner along a wall;
-/// false if there is none.
-bool release_one(const Landscape&, Sites&);
+/// false if none is pulled by more than `least`.
+bool release_one(const Landscape&, Sites&, double least);
 
 }  // namespace carom::ensemble
