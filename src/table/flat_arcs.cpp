@@ -58,17 +58,17 @@ Misplaced misplaced(const Wall& wall, const FlightSizes& sizes) {
   if (std::holds_alternative<geometry::Segment>(wall.curve)) return {};
   const geometry::CurveFrame frame = geometry::frame_of(wall.curve);
   if (const double share = shapes::share_of_landing(frame, sizes); share > shapes::largest_share) {
-    const std::string fault =
-        frame.circular ? "the radius of '" + wall.name + "', " + shapes::shown(frame.minor) +
-                             ", is too small: hits would be misplaced by up to " +
-                             shapes::shown(share) + " of it"
-                       : "the ellipse of '" + wall.name + "' is too thin: with semi-axes of " +
-                             shapes::shown(frame.major) + " and " + shapes::shown(frame.minor) +
-                             ", hits would be misplaced by up to " + shapes::shown(share) +
-                             " of the smaller one";
-    return {fault,
-            "a share of 2^-16 at most: radii and semi-axes down to some 3e-10 of the larger one, "
-            "of the table's size and of its distance from the origin"};
+    const std::string share_text = shapes::shown(share);
+    return {
+        "'" + wall.name + "' is too " +
+            (frame.circular
+                 ? "small: with a radius of " + shapes::shown(frame.minor) +
+                       ", hits would be misplaced by up to " + share_text + " of it"
+                 : "thin: with semi-axes of " + shapes::shown(frame.major) + " and " +
+                       shapes::shown(frame.minor) + ", hits would be misplaced by up to " +
+                       share_text + " of the smaller one"),
+        "a share of 2^-16 at most: no radius or semi-axis below some 3e-10 of the table's size, "
+        "of its distance from the origin and of the other semi-axis"};
   }
   const auto* circular = std::get_if<geometry::CircularArc>(&wall.curve);
   const auto* elliptic = std::get_if<geometry::EllipticArc>(&wall.curve);
@@ -89,11 +89,30 @@ Misplaced misplaced(const Wall& wall, const FlightSizes& sizes) {
           "chords"};
 }
 
+namespace shapes {
+namespace {
+
+/// The key of a named shape that tells how large a wall is, if there is one.
+Place place_of_size(const TableSpec& spec, const Table& table, std::size_t wall) {
+  Place place = place_of_wall(spec, table, wall);
+  if (place.key != spec.place.key) return place;
+  const auto a = spec.numbers.find("a"), b = spec.numbers.find("b");
+  if (a != spec.numbers.end() && b != spec.numbers.end())
+    return (a->second.to_double() < b->second.to_double() ? a : b)->second.place();
+  for (const std::string& key : {table.walls[wall].name, std::string("radius")})
+    if (const auto found = spec.numbers.find(key); found != spec.numbers.end())
+      return found->second.place();
+  return place;
+}
+
+}  // namespace
+}  // namespace shapes
+
 void shapes::refuse_misplaced(const TableSpec& spec, const Table& table) {
   const FlightSizes sizes = flight_sizes(table);
   for (std::size_t k = 0; k < table.walls.size(); ++k)
     if (const Misplaced found = misplaced(table.walls[k], sizes); !found.fault.empty())
-      throw InputError(place_of_wall(spec, table, k), found.fault, found.expected);
+      throw InputError(place_of_size(spec, table, k), found.fault, found.expected);
 }
 
 }  // namespace carom::table

@@ -25,19 +25,19 @@ std::string text(double x) {
 std::string text(double x, double y) { return "[" + text(x) + ", " + text(y) + "]"; }
 
 double extreme(Dice& dice, double least = 1e-15) { return dice.spread(least, 0.1); }
-double far_off(Dice& dice) { return dice.coin() ? 0.0 : dice.sign() / extreme(dice); }
+double far_off(Dice& dice) { return dice.coin() ? 0.0 : dice.sign() / extreme(dice, 1e-12); }
 
 std::string square(double side, double x, double y) {
   return "[table]\nshape = \"polygon\"\npoints = [" + text(x, y) + ", " + text(x + side, y) + ", " +
          text(x + side, y + side) + ", " + text(x, y + side) + "]\n";
 }
 std::string disc(double x, double y, double radius) {
-  return "[[table.obstacle]]\nshape = \"circle\"\ncenter = " + text(x, y) +
+  return "[[table.obstacle]]\nname = \"small\"\nshape = \"circle\"\ncenter = " + text(x, y) +
          "\nradius = " + text(radius) + "\n";
 }
 std::string ellipse(double x, double y, double a, double b, double angle) {
-  return "[[table.obstacle]]\nshape = \"ellipse\"\ncenter = " + text(x, y) + "\na = " + text(a) +
-         "\nb = " + text(b) + "\nangle = " + text(angle) + "\n";
+  return "[[table.obstacle]]\nname = \"small\"\nshape = \"ellipse\"\ncenter = " + text(x, y) +
+         "\na = " + text(a) + "\nb = " + text(b) + "\nangle = " + text(angle) + "\n";
 }
 std::string path(const std::string& start, const std::string& pieces) {
   return "[table]\nshape = \"path\"\n[[table.loop]]\nstart = " + start + "\npieces = [" + pieces +
@@ -70,15 +70,18 @@ const Family families[] = {
     {"thin ellipses far away",
      [](Dice& d) {
        const double x = far_off(d), y = far_off(d), a = d.spread(1e-3, 1.4);
-       return square(3.0, x, y) + ellipse(x + 1.5, y + 1.5, a, a * extreme(d), d.between(0.0, 3.0));
+       return square(3.0, x, y) +
+              ellipse(x + 1.5, y + 1.5, a, a * extreme(d, 1e-8), d.between(0.0, 3.0));
      }},
     {"small discs", [](Dice& d) { return square(1.0, 0.0, 0.0) + disc(0.5, 0.375, extreme(d)); }},
     {"discs that nearly touch",
      [](Dice& d) {
        const double r = d.spread(1e-6, 0.2), gap = r * extreme(d), angle = d.between(0.0, 6.28);
        return square(1.0, 0.0, 0.0) + disc(0.5, 0.5, r) +
-              disc(0.5 + (2.0 * r + gap) * std::cos(angle), 0.5 + (2.0 * r + gap) * std::sin(angle),
-                   r);
+              "[[table.obstacle]]\nshape = \"circle\"\ncenter = " +
+              text(0.5 + (2.0 * r + gap) * std::cos(angle),
+                   0.5 + (2.0 * r + gap) * std::sin(angle)) +
+              "\nradius = " + text(r) + "\n";
      }},
     {"a disc near a wall",
      [](Dice& d) {
@@ -146,8 +149,8 @@ const Family families[] = {
        const double r = extreme(d), half = 0.70710678118654757 * r;
        return path("[0, 0]", line(1.0, 0.0) + line(1.0, 1.0 - r) +
                                  "{arc_via = " + text(1.0 - r + half, 1.0 - r + half) +
-                                 ", arc_to = " + text(1.0 - r, 1.0) + "}," + line(0.0, 1.0) +
-                                 line(0.0, 0.0));
+                                 ", arc_to = " + text(1.0 - r, 1.0) + ", name = \"small\"}," +
+                                 line(0.0, 1.0) + line(0.0, 0.0));
      }},
     {"thin elliptic domes",
      [](Dice& d) {
@@ -185,14 +188,14 @@ const Family families[] = {
 };
 
 struct Counts {
-  int flown = 0, refused = 0;
+  int flown = 0, refused = 0, otherwise = 0;  ///< refused by another limit, or as no table
   std::uint64_t hits = 0, exact = 0, lost = 0, singular = 0;
 };
 
 TEST(ExtremeTables, AreRefusedOrLoseNoParticle) {
   Dice dice(29);
   std::map<std::string, Counts> seen;
-  const long each = tests::cases(8, 450);
+  const long each = tests::cases(8, 460);
   for (const Family& family : families) {
     Counts& counts = seen[family.name];
     for (long k = 0; k < each; ++k) {
@@ -200,15 +203,20 @@ TEST(ExtremeTables, AreRefusedOrLoseNoParticle) {
       const bool field = dice.coin();
       const std::string whole =
           table + (field ? "[field]\nlarmor_radius = " + text(dice.spread(1e-3, 1e3)) + "\n" : "") +
-          "[particles]\nspeed = 1\n[initial]\nkind = \"boundary\"\n[run]\nt_max = " +
-          text(family.time) + "\ncollisions = 40\ntrajectories = 12\nseed = " + std::to_string(k) +
-          "\n";
+          "[particles]\nspeed = 1\n[initial]\nkind = \"boundary\"\n" +
+          // Most flights from a small wall meet none of the others, but some come back to it.
+          (table.find("small") != std::string::npos && dice.coin() ? "wall = \"small\"\n" : "") +
+          "[run]\nt_max = " + text(family.time) +
+          "\ncollisions = 40\ntrajectories = 12\nseed = " + std::to_string(k) + "\n";
       std::optional<System> system;
       try {
         system = read_system(whole, family.name).system;
       } catch (const InputError& error) {
         ++counts.refused;
-        if (std::getenv("CAROM_SHOW")) std::printf("%s: %s\n", family.name, error.what());
+        if (std::string(error.what()).find("2^-16") == std::string::npos) {
+          ++counts.otherwise;
+          std::printf("%s: %s\n", family.name, error.what());
+        }
         continue;
       }
       ++counts.flown;
@@ -222,8 +230,7 @@ TEST(ExtremeTables, AreRefusedOrLoseNoParticle) {
       counts.singular += scalar.counts.singular;
       EXPECT_EQ(scalar.counts.lost, 0u) << whole;
       EXPECT_EQ(scalar.counts.singular, 0u) << whole;
-      for (const auto& [index, report] : scalar.reports)
-        if (std::getenv("CAROM_SHOW")) std::printf("%s\n", report.c_str());
+      for (const auto& [index, report] : scalar.reports) std::printf("%s\n", report.c_str());
       for (const InstructionSet set : available_instruction_sets()) {
         how.lanes = set;
         const EscapeResult lanes = run_escape(*system, how);
@@ -232,6 +239,7 @@ TEST(ExtremeTables, AreRefusedOrLoseNoParticle) {
       }
     }
     EXPECT_GT(counts.flown, 0) << family.name;
+    EXPECT_LE(10 * counts.otherwise, each) << family.name;
   }
   Counts all;
   for (const auto& [name, c] : seen) {
