@@ -38,6 +38,7 @@ def function_of(command):
 
 def _check(key, command):
     """Throws InputError for a keyword that means nothing to a command; without a command: to a system."""
+    text_of(key, "keyword")
     if command is None:
         known = {key for key in (*_SECTION_OF, *_SECTIONS, *_HELD, "angle")}
         what = "a system"

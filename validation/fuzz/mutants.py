@@ -3,6 +3,7 @@
 A case is a function of a seed and an index, and of the sources: the built-in systems, the TOML blocks of the guide, and
 systems put together from the pieces below.
 """
+import json
 import pathlib
 import random
 import re
@@ -178,8 +179,8 @@ def composed(chance):
 
 def whole_systems(program):
     """The built-in systems and the TOML blocks of the guide."""
-    listed = subprocess.run([program, "systems"], capture_output=True, text=True, check=True).stdout
-    names = [line.split()[0] for line in listed.splitlines()[1:]]
+    listed = subprocess.run([program, "systems", "--json"], capture_output=True, text=True, check=True).stdout
+    names = [system["name"] for system in json.loads(listed)["systems"]]
     texts = [subprocess.run([program, "systems", name], capture_output=True, text=True, check=True).stdout for name in names]
     for page in sorted((ROOT / "docs" / "guide").glob("*.md")):
         texts += re.findall(r"```toml\n(.*?)```", page.read_text(), re.DOTALL)

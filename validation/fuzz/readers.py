@@ -17,7 +17,7 @@ Verdicts
   crash     a signal, a report of a sanitizer, an exception that is no InputError
   internal  a promise inside the program was broken
   changed   it was read and gave something else, or what was written was refused
-  deaf      more than 2 s of the processor, or no answer for a minute
+  deaf      more than 10 s of the processor for three readings, or no answer for a minute
   memory    more than 2 GB
   place     an InputError that does not name the file
 Exit status 1 if there is anything but read and refused. Cases that are neither are printed; --keep FOLDER keeps the

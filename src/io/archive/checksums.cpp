@@ -168,10 +168,47 @@ herr_t add_object(hid_t file, const char* name, const H5O_info_t* info, void* pa
   return 0;
 }
 
-// The paths of all datasets and attributes; false where HDF5 cannot list them.
-bool list_paths(hid_t file, std::vector<std::string>& paths) {
-  return H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, add_object, &paths, H5O_INFO_BASIC) >= 0;
-}
+// What a file lists of itself, as other readers see it. In the order of its own index alone: for
+// another one HDF5 1.10 makes a table first, and where it cannot read the index, it releases rows
+// of that which it has not filled.
+class Listing {
+ public:
+  /// Of everything below the group; false where HDF5 cannot list it.
+  bool add(hid_t group, const std::string& path) {
+    if (!add_attributes(group, path.empty() ? "/" : path)) return false;
+    std::vector<std::string> names;
+    if (H5Literate(group, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, add_link, &names) < 0)
+      return false;
+    for (const std::string& name : names) {
+      const Handle object(H5Oopen(group, name.c_str(), H5P_DEFAULT), H5Oclose);
+      H5O_info_t info;
+      if (!object || H5Oget_info2(object.get(), &info, H5O_INFO_BASIC) < 0) return false;
+      const std::string inner = path + "/" + name;
+      if (info.type == H5O_TYPE_DATASET) paths.insert(inner);
+      const bool again = info.type == H5O_TYPE_GROUP && !groups_.insert(info.addr).second;
+      if (again) continue;
+      const bool fine = info.type == H5O_TYPE_GROUP ? add(object.get(), inner)
+                                                    : add_attributes(object.get(), inner);
+      if (!fine) return false;
+    }
+    return true;
+  }
+  std::set<std::string> paths;
+
+ private:
+  static herr_t add_link(hid_t, const char* name, const H5L_info_t* info, void* names) {
+    if (info->type == H5L_TYPE_HARD) static_cast<std::vector<std::string>*>(names)->push_back(name);
+    return 0;
+  }
+  bool add_attributes(hid_t object, const std::string& path) {
+    std::vector<std::string> attributes{path};
+    if (H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, add_attribute, &attributes) < 0)
+      return false;
+    paths.insert(attributes.begin() + 1, attributes.end());
+    return true;
+  }
+  std::set<haddr_t> groups_;  // links may lead round
+};
 
 // Rows that are stated against bytes that are stored. A chunk of nothing but usual values is not
 // stored, but no group of columns has only such: it has times, places or indices. A file that
@@ -209,7 +246,7 @@ class Sizes {
 std::string list_of(hid_t file, bool with_sums, const std::string& name,
                     const KnownSums& known = {}) {
   std::vector<std::string> paths;
-  check(list_paths(file, paths), name);
+  check(H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, add_object, &paths, H5O_INFO_BASIC) >= 0, name);
   std::string lines;
   for (const std::string& path : paths) {
     if (path == list_path) continue;
@@ -284,13 +321,13 @@ void verify(hid_t file, const std::string& name) {
     entries[path] = stored;
   }
   // All that can be reached: other readers list the groups, and do not ask for names they know.
-  std::vector<std::string> paths;
-  if (!list_paths(file, paths)) refuse("/", "has a damaged index of links");
-  const std::set<std::string> seen(paths.begin(), paths.end());
+  Listing listing;
+  const Handle root(H5Gopen2(file, "/", H5P_DEFAULT), H5Gclose);
+  if (!root || !listing.add(root.get(), "")) refuse("/", "has a damaged index of links");
   Sizes sizes;
   for (const auto& [path, stored] : entries) {
     Entry found;
-    if (!seen.count(path) || !read_entry(file, path, &stored, false, found))
+    if (listing.paths.count(path) == 0 || !read_entry(file, path, &stored, false, found))
       refuse(path, unreadable);
     if (found.type != stored.type || found.count != stored.count) refuse(path, changed);
     sizes.add(file, path, found);
