@@ -86,9 +86,8 @@ std::uint64_t uncounted(const System& system, const LyapunovResult& result) {
 std::vector<std::string> drift_notes(const System& system, const LyapunovResult& result,
                                      const LyapunovEstimate& e) {
   const std::string why = why_not_stationary(with_starts_of_the_flow(system));
-  const GrowthSums::Totals& totals = result.growth.totals();
-  // Regular orbits have no exponent that could drift, and repeated ones no errors.
-  if (why.empty() || result.repeller || totals.regular == totals.orbits ||
+  // Where deviations grow linearly no exponent could drift, and repeated starts have no errors.
+  if (why.empty() || result.repeller || e.law != LyapunovEstimate::Law::exponential ||
       !repeated_starts(system).empty())
     return {};
   std::vector<std::string> notes;
