@@ -159,11 +159,15 @@ RunOutcome open_run(const std::string& file) {
   SingleRunOptions how;
   how.resume = stored.particles;
   how.steps = stored.steps;
+  how.evaluations = stored.evaluations;
+  how.trajectory = stored.trajectory;
   double end = 0.0;
   for (const ParticleProgress& p : stored.particles) end = std::max(end, p.end.value());
   system.run.t_max = end;
   RunOutcome outcome;
   outcome.result = run_single(system, none, how);
+  outcome.result.seconds = stored.seconds;
+  outcome.result.cpu_seconds = stored.cpu_seconds;
   if (system.dynamics.forces && !system.dynamics.forces->empty())
     outcome.result.no_state_error = "archives do not hold it";
   outcome.starts = read_starts(file);

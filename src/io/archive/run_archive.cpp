@@ -131,6 +131,16 @@ const StateField state_fields[] = {
      {"energy", "Largest kinetic energy that was seen"},
      [](P p) { return p.energy.kinetic; },
      nullptr},
+    {"energy_change_low",
+     true,
+     {"energy", "What a double does not hold of energy_change"},
+     [](P p) { return p.energy.change_low; },
+     nullptr},
+    {"energy_last",
+     true,
+     {"energy", "Energy after the latest step, of all that it is integrated with; NaN: not known"},
+     [](P p) { return p.energy.last; },
+     nullptr},
     {"fate",
      false,
      {"1", "Index into the attribute `names`"},
@@ -204,7 +214,7 @@ class RunArchive::Implementation {
   void create_state(std::size_t particles);
   void write_state(const std::vector<RunEnd>& particles);
   void create_steps();
-  void write_steps(const StepCounts& steps);
+  void write_steps(const StepCounts& steps, const Evaluations& evaluations);
 
   ArchiveLock lock;  // first: it lets go last
   ArchiveFile file;
@@ -225,6 +235,7 @@ class RunArchive::Implementation {
 void RunArchive::Implementation::create(const LoadedSystem& loaded, const Provenance& origin,
                                         std::optional<std::uint64_t> trajectory) {
   file.write_head(run_archive_kind, loaded, origin);
+  file.write_seconds({});
   if (trajectory)
     hdf5::write_attribute(file.open_group("provenance").get(), trajectory_key, *trajectory,
                           file.name());
@@ -295,6 +306,8 @@ void RunArchive::Implementation::reopen(const LoadedSystem& loaded, const Proven
                      "was begun by an earlier build, whose hits have a column 'u'",
                      "an archive of this one: run it again");
   file.extend_head(loaded, origin);
+  const Handle provenance = file.open_group("provenance");
+  file.write_seconds(ArchiveFile::read_seconds(provenance.get(), file.name()));
   {
     const Handle group = file.open_group("collisions");
     const hid_t from = group.get();
@@ -352,12 +365,20 @@ void RunArchive::Implementation::create_steps() {
   for (const StepNumber& number : step_numbers)
     create(number.name, H5T_NATIVE_UINT64, {"1", number.text});
   create(first_unresolved, H5T_NATIVE_DOUBLE, {"time", "When the earliest of these began"});
+  create(going_on, H5T_NATIVE_UINT64,
+         {"1",
+          "Evaluations from which a run that goes on counts: but those for states within the "
+          "steps under way"});
+  create(predicted, H5T_NATIVE_UINT64,
+         {"1", "1: those of the steps under way are among them; 0: an interrupt dropped them"});
 }
 
-void RunArchive::Implementation::write_steps(const StepCounts& steps) {
+void RunArchive::Implementation::write_steps(const StepCounts& steps,
+                                             const Evaluations& evaluations) {
   if (!hdf5::has(file.id(), "steps")) return;
   const Handle group = file.open_group("steps");
   const auto write = [&](const char* name, hid_t type, const void* value) {
+    if (!hdf5::has(group.get(), name)) return;  // an earlier build began the archive
     Handle dataset = hdf5::checked(H5Dopen2(group.get(), name, H5P_DEFAULT), H5Dclose, file.name());
     hdf5::check(H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0,
                 file.name());
@@ -366,6 +387,9 @@ void RunArchive::Implementation::write_steps(const StepCounts& steps) {
   for (const StepNumber& number : step_numbers)
     write(number.name, H5T_NATIVE_UINT64, &(steps.*number.value));
   write(first_unresolved, H5T_NATIVE_DOUBLE, &steps.first_unresolved);
+  const std::uint64_t are_predicted = evaluations.predicted;
+  write(going_on, H5T_NATIVE_UINT64, &evaluations.count);
+  write(predicted, H5T_NATIVE_UINT64, &are_predicted);
 }
 
 RunArchive::RunArchive(std::unique_ptr<Implementation> implementation)
@@ -473,9 +497,10 @@ void RunArchive::finish(const SingleRunResult& result, const std::string& status
   a.contacts.close();
   a.energies.close();
   a.write_state(result.particles);
-  a.write_steps(result.steps);
+  a.write_steps(result.steps, result.evaluations);
   if (result.particles.front().trust.known)
     write_trust(a.file.open_group("trust").get(), result.particles, a.file.name());
+  a.file.write_seconds({result.seconds, result.cpu_seconds});
   a.file.add_decisions(result.decisions);
   a.file.set_status(status, !result.interrupted);
   a.file.keep_as(a.target);
