@@ -13,6 +13,7 @@
 #include "io/archive/columns.hpp"
 #include "io/archive/contact_columns.hpp"
 #include "io/archive/ensemble_columns.hpp"
+#include "io/archive/state_fields.hpp"
 #include "io/archive/step_numbers.hpp"
 #include "io/archive/trust_columns.hpp"
 #include "io/checkpoint/ensemble_files.hpp"
@@ -32,121 +33,6 @@ std::vector<T> collect(const std::vector<RunEnd>& particles, Get get) {
   for (const RunEnd& particle : particles) values.push_back(static_cast<T>(get(particle)));
   return values;
 }
-
-// Names and types of /state, where its file layout, writing and reading meet.
-struct StateField {
-  const char* name;
-  bool real;
-  Description description;
-  double (*real_of)(const ParticleProgress&);
-  std::int64_t (*integer_of)(const ParticleProgress&);
-};
-using P = const ParticleProgress&;
-const StateField state_fields[] = {
-    {"wall",
-     false,
-     {"1", "Wall of the last event, -1: off the walls"},
-     nullptr,
-     [](P p) { return std::int64_t{p.state.wall}; }},
-    {"u", true, {"1", "Exact parameter on that wall"}, [](P p) { return p.state.u; }, nullptr},
-    {"x",
-     true,
-     {"length", "Position in the cell"},
-     [](P p) { return p.state.position.x; },
-     nullptr},
-    {"y",
-     true,
-     {"length", "Position in the cell"},
-     [](P p) { return p.state.position.y; },
-     nullptr},
-    {"vx", true, {"length/time", "Velocity"}, [](P p) { return p.state.velocity.x; }, nullptr},
-    {"vy", true, {"length/time", "Velocity"}, [](P p) { return p.state.velocity.y; }, nullptr},
-    {"speed",
-     true,
-     {"length/time", "What reflections keep; the velocity may differ from it by rounding"},
-     [](P p) { return p.speed; },
-     nullptr},
-    {"cell_first",
-     false,
-     {"1", "Cell of the lattice"},
-     nullptr,
-     [](P p) { return p.state.cell.first; }},
-    {"cell_second",
-     false,
-     {"1", "Cell of the lattice"},
-     nullptr,
-     [](P p) { return p.state.cell.second; }},
-    {"t_high",
-     true,
-     {"time", "Time of the last event, leading double"},
-     [](P p) { return p.state.time.high; },
-     nullptr},
-    {"t_low",
-     true,
-     {"time", "Time of the last event, trailing double"},
-     [](P p) { return p.state.time.low; },
-     nullptr},
-    {"end_high",
-     true,
-     {"time", "Time of the end, leading double"},
-     [](P p) { return p.end.high; },
-     nullptr},
-    {"end_low",
-     true,
-     {"time", "Time of the end, trailing double"},
-     [](P p) { return p.end.low; },
-     nullptr},
-    {"hits",
-     false,
-     {"1", "Reflections so far"},
-     nullptr,
-     [](P p) { return static_cast<std::int64_t>(p.hits); }},
-    {"contacts",
-     false,
-     {"1", "Contacts with other hard discs so far"},
-     nullptr,
-     [](P p) { return static_cast<std::int64_t>(p.contacts); }},
-    {"last_wall",
-     false,
-     {"1", "Wall of the last reflection, -1: none"},
-     nullptr,
-     [](P p) { return std::int64_t{p.last_wall}; }},
-    {"hole",
-     false,
-     {"1", "Hole it escaped through, -1: none"},
-     nullptr,
-     [](P p) { return std::int64_t{p.hole}; }},
-    {"energy_change",
-     true,
-     {"energy", "Change of the energy since the start"},
-     [](P p) { return p.energy.change; },
-     nullptr},
-    {"energy_largest",
-     true,
-     {"energy", "Largest change that was seen"},
-     [](P p) { return p.energy.largest; },
-     nullptr},
-    {"energy_kinetic",
-     true,
-     {"energy", "Largest kinetic energy that was seen"},
-     [](P p) { return p.energy.kinetic; },
-     nullptr},
-    {"energy_change_low",
-     true,
-     {"energy", "What a double does not hold of energy_change"},
-     [](P p) { return p.energy.change_low; },
-     nullptr},
-    {"energy_last",
-     true,
-     {"energy", "Energy after the latest step, of all that it is integrated with; NaN: not known"},
-     [](P p) { return p.energy.last; },
-     nullptr},
-    {"fate",
-     false,
-     {"1", "Index into the attribute `names`"},
-     nullptr,
-     [](P p) { return static_cast<std::int64_t>(p.fate); }},
-};
 
 const std::pair<const char*, Description> energy_fields[] = {
     {"t", {"time", "Time of the sample"}},
