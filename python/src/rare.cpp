@@ -55,7 +55,11 @@ void add_rare(py::module_& module) {
            [](const SplittingOutcome& self) {
              return cli::splitting_text(self.system->system(), self.result);
            })
-      .def("doubts", [](const SplittingOutcome& self) { return cli::warnings_of(self.result); });
+      .def("doubts", [](const SplittingOutcome& self) {
+        std::vector<std::string> lines = cli::doubts_of(self.result).lines;
+        for (const std::string& note : cli::notes_of(self.result)) lines.push_back(note);
+        return lines;
+      });
   module.def("split", &split, py::arg("system"), py::arg("progress"));
 }
 

@@ -213,6 +213,8 @@ RunOutcome open_run(const std::string& file) {
   how.resume = stored.particles;
   how.interrupted = [&] { return ended.goes_on; };
   how.steps = stored.steps;
+  how.evaluations = stored.evaluations;
+  how.trajectory = stored.trajectory;
   double end = 0.0;
   for (const ParticleProgress& p : stored.particles) end = std::max(end, p.end.value());
   system.run.t_max = end;
@@ -221,6 +223,8 @@ RunOutcome open_run(const std::string& file) {
   if (ended.goes_on)
     throw InputError(Place{file, 0, 0, ""}, "'/state' is not where the run ended",
                      "an archive as carom wrote it");
+  outcome.result.seconds = stored.seconds;
+  outcome.result.cpu_seconds = stored.cpu_seconds;
   if (system.dynamics.forces && !system.dynamics.forces->empty())
     outcome.result.no_state_error = "archives do not hold it";
   outcome.starts = read_starts(file);

@@ -49,9 +49,7 @@ SweepOutcome make_sweep(const io::SweepPlan& plan,
   result.plan = plan;
   for (std::size_t i = 0; i < reports.size(); ++i) {
     const auto& [report, doubts] = reports[i];
-    io::Json row = io::Json::parse(report, "report");
-    if (!doubts.empty()) row.set("doubts", doubts);
-    result.rows.push_back({i, std::move(row)});
+    result.rows.emplace_back(i, io::Json::parse(report, "report"), doubts);
   }
   result.status = reports.size() == plan.systems.size() ? "completed" : "interrupted";
   if (const auto error = cli::why_nothing(result)) throw *error;  // as the program
@@ -64,7 +62,7 @@ SweepOutcome open_sweep(const std::string& file) {
   SweepOutcome opened{{stored.plan, {}, "", stored.status, ""}, file};
   for (std::size_t i = 0; i < stored.reports.size(); ++i)
     if (!stored.reports[i].empty())
-      opened.result.rows.push_back({i, io::Json::parse(stored.reports[i], file)});
+      opened.result.rows.emplace_back(i, io::Json::parse(stored.reports[i], file));
   opened.result.title = read_system(stored.plan.system_toml, stored.plan.system_name).system.title;
   return opened;
 }
@@ -84,7 +82,7 @@ void save(const SweepOutcome& self, const std::string& name, bool force,
         std::filesystem::remove(value);  // a new file, never through a link
         std::filesystem::copy_file(archives[i], value);
       }
-      io::keep_report(file, row.index, row.report.text());
+      io::keep_report(file, self.result.plan, row.index, row.report.text());
     }
     cli::Options options;
     options.command = self.result.plan.command;

@@ -4,14 +4,16 @@ namespace carom {
 
 void FateCounts::count(Fate fate) {
   switch (fate) {
+    case Fate::survived:
+      ++survived;
+      return;
     case Fate::pinned:
       ++pinned;
-      [[fallthrough]];
-    case Fate::survived:
       ++survived;
       return;
     case Fate::capped:
       ++capped;
+      ++survived;
       return;
     case Fate::escaped:
       ++escaped;

@@ -35,6 +35,9 @@ struct Counts {
     edges.push_back(0.0);
     for (const auto& bin : all.bins.bins())
       if (bin.to > least) edges.push_back(std::min(bin.to, sums.limit()));
+    // All flights may be of one kind: there is always a bin for those that were counted.
+    if (const auto& bins = all.bins.bins(); edges.size() == 1 && !bins.empty())
+      edges.push_back(std::min(bins.back().to, sums.limit()));
     const std::size_t n = edges.size() - 1;
     for (std::size_t g = 0; g < groups; ++g) {
       const FreePathSums::Flights& flights = sums.of(g).*what;
@@ -169,14 +172,15 @@ FreePaths free_paths_of(const FreePathSums& sums) {
   const std::vector<double> path =
       without_each([&](std::size_t g) { return sums.of(g).path.value(); });
   std::vector<double> mean;
-  for (std::size_t g = 0; g <= groups; ++g) mean.push_back(path[g] / hits[g]);
+  for (std::size_t g = 0; g <= groups; ++g) mean.push_back(hits[g] > 0 ? path[g] / hits[g] : nan);
+  const bool known = hits.back() > 0;
   // Flights of less than a sixtieth of the mean are of one kind.
-  const double least = mean.back() / 64;
+  const double least = known ? mean.back() / 64 : 0.0;
   const Counts between(sums, &FreePathSums::Sum::between, least),
       at_start(sums, &FreePathSums::Sum::at_start, least);
   paths.mean = jackknife(at_start.filled, [&](std::size_t g) { return mean[g]; });
   // Of a tail c/l^a (1 + O(mean/l)) the correction is then small.
-  const double shortest = 16 * mean.back();
+  const double shortest = known ? 16 * mean.back() : std::numeric_limits<double>::infinity();
   paths.between = distribution_of(between, mean, shortest);
   paths.at_start = distribution_of(at_start, {}, shortest);
   return paths;

@@ -101,7 +101,6 @@ void SurvivalCounts::add(Fate fate, double time, std::uint64_t hits, int hole,
   collisions += hits;
   most_hits = std::max(most_hits, hits);
   count(fate);
-  if (fate == Fate::capped) ++survived;
   if (fate == Fate::capped || fate == Fate::survived)
     fewest_hits_of_survivor = std::min(fewest_hits_of_survivor, hits);
   if (part) part->followed += followed() - before;

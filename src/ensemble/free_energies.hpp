@@ -33,7 +33,7 @@ class FreeEnergies {
       sum_ += kinetic;
     } else {
       seen = before;
-      changes_[at(particle)] = before.change;
+      changes_[at(particle)] = {before.change, before.change_low};
       sum_ = kinetic;
       goes_on_ = before.kinetic > 0.0;
     }
@@ -84,7 +84,8 @@ class FreeEnergies {
     for (const Change& one : all)
       changes_[0] = changes_[0] + Twofold::sum(kinetic_energy(one.particle, one.after),
                                                -kinetic_energy(one.particle, one.before));
-    see(0, changes_[0].value());
+    see(0, changes_[0].high);
+    seen_[0].change_low = changes_[0].low;
   }
   void see(int particle, double change) {
     EnergyBalance& seen = seen_[at(particle)];

@@ -194,13 +194,14 @@ OrbitSearchResult find_orbits(const System& system, const OrbitSearchOptions& op
   result.words = chains.size();
   // Between discs words are all there is, unless flights are curved.
   if (chains.empty() || system.particles.front().omega != 0.0) {
-    const RecurrencePlan plan{fewest_hits(system), options.most_hits, options.starts,
-                              options.tries};
+    const RecurrencePlan plan{fewest_hits(system), options.most_hits, options.starts, options.tries,
+                              options.progress};
     std::vector<Chain> more = recurrences(search, boundary, plan, stopped);
     result.recurrences = more.size();
     std::move(more.begin(), more.end(), std::back_inserter(chains));
   }
 
+  const bool all_starts = !stopped();
   const World world(*search.table);
   std::vector<std::optional<Found>> found(chains.size());
   std::atomic<std::uint64_t> tried{0};
@@ -219,6 +220,7 @@ OrbitSearchResult find_orbits(const System& system, const OrbitSearchOptions& op
         result.unsolved += solver.unsolved;
         result.shadowed += solver.shadowed;
       });
+  result.complete = result.complete && all_starts;
 
   const std::vector<Isometry> maps = orbits::isometries(boundary);
   result.symmetries = maps.size();

@@ -52,6 +52,7 @@ class Recurrences : public Listener {
     if (hits == states_[t.slot].size()) states_[t.slot].push_back(state);
   }
   void end(const Trajectory& t, const TrajectoryEnd&) override {
+    if (plan_.progress) plan_.progress(++ended_, plan_.starts);
     const std::vector<State>& states = states_[t.slot];
     for (std::size_t n = plan_.fewest_hits; n < states.size(); ++n)
       if (states[n].wall == states[0].wall) add(t.number, states, n);
@@ -104,6 +105,7 @@ class Recurrences : public Listener {
 
   const Boundary& boundary_;
   const RecurrencePlan& plan_;
+  std::uint64_t ended_ = 0;
   std::vector<std::vector<State>> states_;  ///< by slot
   std::vector<std::map<std::vector<int>, std::vector<Recurrence>>> of_length_;
 };

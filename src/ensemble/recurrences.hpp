@@ -14,6 +14,7 @@ struct RecurrencePlan {
   std::size_t fewest_hits = 2, most_hits = 0;
   std::uint64_t starts = 0;
   std::uint64_t tries = 0;  ///< chains for each number of hits
+  std::function<void(std::uint64_t flown, std::uint64_t starts)> progress = {};
 };
 
 /// The closest recurrences of trajectories that start on the walls with the cosine law, after so

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
@@ -217,7 +218,9 @@ class SingleRun {
   }
 
   void begin_energies() {
-    at_start_ = energies_of([&](std::size_t body) { return state(body); });
+    const std::vector<State> starts = starts_of_all();
+    at_start_ = energies_of(
+        [&](std::size_t body) { return starts.empty() ? state(body) : starts[number(body)]; });
     free_.emplace(all_, shared_);
     for (std::size_t body = 0; body < numbers_.size(); ++body) {
       const EnergyBalance& before = progress_[number(body)].energy;
@@ -230,6 +233,15 @@ class SingleRun {
       world_.watch_energy();
     else
       passed_on_->watch(&*free_);
+  }
+  /// Where the stored run began; none where that is not known, or not needed.
+  std::vector<State> starts_of_all() const {
+    std::vector<State> starts;
+    if (!goes_on_ || !options_.trajectory || !(integrated_ || shared_)) return starts;
+    World drawn(*system_.table, system_.dynamics, options_.decisions);
+    add_starts(drawn, sampler_, *options_.trajectory);
+    for (int p = 0; p < drawn.size(); ++p) starts.push_back(drawn.state(p));
+    return starts;
   }
   /// Of each particle of the world, or of all together.
   template <class StateOf>
@@ -252,11 +264,36 @@ class SingleRun {
     // Pinned particles are known at the start: without a last time nothing more is to come of them,
     // and their samples would have no end.
     if (without_end_ && !goes_on_) world_.run_until(0.0, *passed_on_, interrupted_);
+    if (goes_on_ && integrated_) take_up_steps();
     bool moving = false;
     for (std::size_t body = 0; body < numbers_.size(); ++body)
       moving = moving || !world_.finished(static_cast<int>(body));
     if (moving || !without_end_) world_.run_until(system_.run.t_max, *passed_on_, interrupted_);
     was_interrupted_ = was_interrupted_ || passed_on_->interrupted();
+  }
+
+  /// The steps under way are computed again: what that takes was counted before.
+  void take_up_steps() {
+    Time latest(0.0);
+    for (std::size_t body = 0; body < numbers_.size(); ++body)
+      latest = std::max(latest, state(body).time);
+    double until = latest.value();  // not before the trailing double of the time
+    if (Time(until) < latest) until = std::nextafter(until, std::numeric_limits<double>::max());
+    world_.run_until(until, *passed_on_, interrupted_);
+    const StepsUnderWay now = world_.steps_under_way();
+    counted_before_ = world_.step_counts().force_evaluations - now.evaluations;
+    taken_up_ = now.predicted;
+  }
+  /// As if the run had never stopped.
+  void count_steps(SingleRunResult& result) {
+    result.steps = options_.steps;
+    result.evaluations = options_.evaluations;
+    if (!taken_up_) return;
+    const StepsUnderWay now = world_.steps_under_way();
+    if (goes_on_) result.steps.force_evaluations = options_.evaluations.count;
+    result.steps += world_.step_counts();
+    if (options_.evaluations.predicted) result.steps.force_evaluations -= counted_before_;
+    result.evaluations = {result.steps.force_evaluations - now.evaluations, now.predicted};
   }
 
   void note_end(std::size_t body) {
@@ -305,7 +342,8 @@ class SingleRun {
     for (std::size_t body = 0; body < numbers_.size(); ++body) {
       const std::size_t p = number(body);
       if (shared_ ? all_are_there && !summing_.stopped() : integrated_) {
-        const double before = goes_on_ ? options_.resume[p].energy.change : 0.0;
+        const bool from_here = goes_on_ && !options_.trajectory;  // at_start_ is of this part alone
+        const double before = from_here ? options_.resume[p].energy.change : 0.0;
         const double change = at_end[body].total() - at_start_[body].total();
         errors[p] = progress_[p].energy.error_at_end(before + change, at_end[body].kinetic);
       } else if (!shared_) {
@@ -335,10 +373,9 @@ class SingleRun {
       result.particles[number(body)].report = world_.report(static_cast<int>(body));
     result.interrupted = was_interrupted_;
     result.decisions = world_.decisions();
-    result.steps = options_.steps;
-    result.steps += world_.step_counts();
-    result.seconds = watch_.seconds();
-    result.cpu_seconds = watch_.cpu_seconds();
+    count_steps(result);
+    result.seconds = options_.seconds + watch_.seconds();
+    result.cpu_seconds = options_.cpu_seconds + watch_.cpu_seconds();
     if (options_.estimate_state_error && system_.dynamics.forces &&
         !system_.dynamics.forces->empty())
       estimate_state_error(result, last);
@@ -377,6 +414,8 @@ class SingleRun {
   const bool integrated_, shared_, goes_on_, without_end_;
   const Sampler sampler_{system_, options_.interrupted};
   bool was_interrupted_ = false;
+  std::uint64_t counted_before_ = 0;  ///< evaluations
+  bool taken_up_ = true;              ///< false: interrupted before the run went on
   const std::function<bool()> interrupted_ = [this] {
     was_interrupted_ = was_interrupted_ || (options_.interrupted && options_.interrupted());
     return was_interrupted_;

@@ -239,6 +239,7 @@ int World::hole(int p) const { return implementation_->bodies.at(p).hole; }
 const std::string& World::report(int p) const { return implementation_->bodies.at(p).report; }
 const DecisionCounts& World::decisions() const { return implementation_->flights.counts(); }
 const StepCounts& World::step_counts() const { return implementation_->groups.steps(); }
+StepsUnderWay World::steps_under_way() const { return implementation_->groups.under_way(); }
 
 void World::watch_energy() { implementation_->groups.watch_energy(); }
 const EnergyBalance& World::energy_balance(int p) const {

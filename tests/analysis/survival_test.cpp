@@ -90,8 +90,7 @@ TEST(Survival, LeavesSingularUnresolvedAndLostOnesOut) {
   counts.add(Fate::unbounded, 2.0, 1, -1);
   counts.add(Fate::pinned, 10.0, 0, -1);
   counts.add(Fate::capped, 3.0, 5, -1);
-  EXPECT_EQ(counts.trajectories,
-            counts.escaped + counts.survived + counts.singular + counts.unresolved + counts.lost);
+  EXPECT_EQ(counts.trajectories, counts.all());
   EXPECT_LE(counts.unbounded, counts.escaped);
   EXPECT_EQ(counts.unresolved, 1u);
   EXPECT_EQ(counts.lost, 1u);
@@ -99,6 +98,17 @@ TEST(Survival, LeavesSingularUnresolvedAndLostOnesOut) {
   EXPECT_EQ(counts.pinned, 1u);
   EXPECT_EQ(counts.capped, 1u);
   EXPECT_DOUBLE_EQ(survival(counts)[0].p, 2.0 / 3.0) << "a capped one is still there";
+}
+
+// Of particles that are counted by their fates alone, too.
+TEST(FateCounts, EachParticleIsInOneSum) {
+  FateCounts counts;
+  for (int fate = 0; fate <= static_cast<int>(last_fate); ++fate)
+    counts.count(static_cast<Fate>(fate));
+  EXPECT_EQ(counts.all(), static_cast<std::uint64_t>(last_fate) + 1);
+  EXPECT_EQ(counts.survived, 3u) << "those that are pinned and capped, too";
+  EXPECT_EQ(counts.until_last_time(), 2u);
+  EXPECT_EQ(counts.escaped, 2u) << "those that are unbounded, too";
 }
 
 SurvivalCounts random_counts(unsigned seed, int n) {

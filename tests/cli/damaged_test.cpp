@@ -172,15 +172,35 @@ TEST(Damaged, DiffusionNamesTheDataset) {
                    "'/fates/trajectories' is not one number"},
                   {[](Damage& d) { d.resize("fates/energy_change", 0); },
                    "'/fates/energy_change' is not one number"},
-                  {[](Damage& d) { d.add_to_first("fates/trajectories"); },
+                  {[](Damage& d) {
+                     d.add_to_first("fates/trajectories"), d.add_to_first("fates/survived");
+                   },
                    "'/fates/trajectories' is not the number of particles that '/done' counts"},
                   {[](Damage& d) { d.set_first("fates/survived", 3); },
                    "'/fates' do not add up to '/fates/trajectories'"},
                   {[](Damage& d) { d.set_first("fates/pinned", 51); },
-                   "'/fates/pinned' is more than '/fates/survived'"},
+                   "'/fates/pinned' and '/fates/capped' are more than '/fates/survived'"},
+                  {[](Damage& d) { d.set_first("fates/capped", 51); },
+                   "'/fates/pinned' and '/fates/capped' are more than '/fates/survived'"},
                   {[](Damage& d) { d.set_first("msd_groups/count", 0); },
                    "'/msd_groups/count' and '/fates' contradict each other"},
               });
+}
+
+// Earlier builds did not count those that the cap ended among the survivors of a diffusion.
+TEST(Damaged, FatesOfEarlierBuildsAreNot) {
+  const Shell shell;
+  ASSERT_EQ(shell("$carom diffusion lorentz-triangular --trajectories 50 --t-max 9 --collisions 3 "
+                  "-o a.h5")
+                .status,
+            0);
+  {
+    Damage damage(shell.folder() + "/a.h5");
+    damage.set_first("fates/survived", 0);
+  }
+  const Outcome o = shell("$carom diffusion --resume a.h5 --json");
+  EXPECT_EQ(json_value(o.out, "survived"), "50") << o.err;
+  EXPECT_EQ(json_value(o.out, "capped"), "50");
 }
 
 // The checksums of datasets: a changed byte in the sum of hashes, which nothing else would tell.

@@ -159,5 +159,19 @@ TEST(Diffusion, KeepsFreePathsInArchives) {
   expect_refused(shell("$carom diffusion soft-lorentz --free-paths --json"), "run.free_paths");
 }
 
+// A particle that never hits has no mean length of flights.
+TEST(Diffusion, HasNoFreePathsWithoutHits) {
+  const Shell shell;
+  const Outcome o = shell(
+      "$carom diffusion stadium --trajectories 1 --position 0,0 --velocity 0,-1 --free-paths "
+      "--json -o a.h5");
+  EXPECT_EQ(o.status, 0) << o.err;
+  const std::string paths = json_value(o.out, "free_paths");
+  EXPECT_NE(paths.find("\"mean\": {\"value\": null, \"stderr\": null}"), std::string::npos)
+      << o.out;
+  const Outcome again = shell("$carom diffusion --resume a.h5");
+  EXPECT_NE(again.out.find("no particle has hit a wall"), std::string::npos) << again.out;
+}
+
 }  // namespace
 }  // namespace carom

@@ -81,6 +81,28 @@ TEST(Merge, RefusesWhatOverlapsOrDoesNotMatch) {
     EXPECT_EQ(shell(ensemble + "--shard " + wrong).status, 1) << wrong;
 }
 
+// A window is asked for by the report alone. In any order the sum has that of the first part.
+TEST(Merge, PartsMayAskForOtherWindows) {
+  const Shell shell;
+  for (const std::string command :
+       {"escape magnetic-square --trajectories 500 --t-max 20 ",
+        "diffusion lorentz-triangular --trajectories 300 --t-max 20 "}) {
+    const Outcome o = shell("rm -f *.h5; run=\"$carom " + command + "\"\n" +
+                            "$run --shard 1/2 --window 2:10 -o a.h5 && $run --shard 2/2 --window "
+                            "5:15 -o b.h5 && $run --window 2:10 -o all.h5 &&"
+                            "$carom merge ab.h5 a.h5 b.h5 && $carom merge ba.h5 b.h5 a.h5");
+    ASSERT_EQ(o.status, 0) << o.err;
+    const auto whole = open_archive(shell.folder() + "/all.h5").datasets;
+    expect_same_datasets(shell.folder() + "/ab.h5", whole);
+    expect_same_datasets(shell.folder() + "/ba.h5", whole);
+  }
+  // Exponents are added up within theirs.
+  const std::string lyapunov = "$carom lyapunov stadium --closed --trajectories 20 --t-max 20 ";
+  shell(lyapunov + "--shard 1/2 --window 2:10 -o c.h5; " + lyapunov +
+        "--shard 2/2 --window 5:15 -o d.h5");
+  expect_refused(shell("$carom merge cd.h5 c.h5 d.h5"), "d.h5: ");
+}
+
 // Parts with many report times are large in memory: 145 kB a time. One by one they fit.
 TEST(Merge, HoldsOnePartAtATime) {
   const Shell shell;

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "archive_contents.hpp"
 #include "program.hpp"
 
 namespace carom {
@@ -47,6 +48,17 @@ TEST(Orbit, FindsTheBouncingBallsOfAMagneticSquare) {
   const Outcome o = shell("$carom orbit magnetic-square --hits 2 --starts 500 --tries 50 --json");
   EXPECT_EQ(o.status, 0) << o.err;
   EXPECT_NE(o.out.find("\"family\": true"), std::string::npos) << o.out;
+}
+
+// Stopped while it flies the starts of its search, whose hits are far apart.
+TEST(Orbit, IsInterruptedWhileItPrepares) {
+  const Shell shell;
+  const Outcome o = shell(
+      "$carom orbit sinai --set table.radius=1e-9 --hits 3 --json --quiet -o a.h5 & pid=$!; "
+      "until_listening; sleep 0.2; kill $pid; wait $pid");
+  EXPECT_EQ(o.status, 130) << o.err;
+  EXPECT_EQ(json_value(o.out, "status"), "\"interrupted\"") << o.err;
+  EXPECT_EQ(open_archive(shell.folder() + "/a.h5").complete, 0);
 }
 
 }  // namespace

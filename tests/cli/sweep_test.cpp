@@ -201,6 +201,76 @@ TEST(Sweep, OfRunsGoesOnValueAfterValue) {
   EXPECT_EQ(shell.files(), std::vector<std::string>{"a.h5"});
 }
 
+// Whatever --resume reads, an edited, exchanged or damaged file is named, and stays as it is.
+TEST(Sweep, ChecksWhatItGoesOnWith) {
+  const Shell shell;
+  const std::string part = "a.h5.part/";
+  const auto refused = [&](const std::string& command, const std::string& damage,
+                           const std::string& named) {
+    shell("rm -rf a.h5*; cp -r kept a.h5.part; cd a.h5.part; " + damage);
+    const Outcome o = shell("$carom " + command + " --resume a.h5");
+    EXPECT_EQ(o.status, 1) << damage;
+    EXPECT_EQ(o.out, "") << damage;
+    EXPECT_NE(o.err.find("carom: " + part + named), std::string::npos) << damage << "\n" << o.err;
+    EXPECT_TRUE(shell.exists(part + "sweep")) << damage;
+  };
+  shell(
+      "$carom escape magnetic-square --quiet --trajectories 200000 --sweep "
+      "field.B=list:0.5,2,1,1.5,1.25 --checkpoint blocks:1 -o a.h5 & pid=$!; "
+      "until_there a.h5.part/value-2.report; kill -9 $pid; wait $pid; mv a.h5.part kept");
+  refused("escape", "sed -i 's/B = 2/B = 9/' sweep", "sweep: it was changed");
+  refused("escape", "sed -i 's/\"2\"/\"9\"/' sweep", "sweep: it was changed");
+  refused("escape", "printf x >> sweep", "sweep: ");
+  refused("escape", ": > sweep", "sweep: ");
+  refused("escape", "sed -i 's/completed/Completed/' value-0.report", "value-0.report: it was");
+  refused("escape", "mv value-0.report value-1.report", "value-1.report: it was");
+  refused("escape", "rm *.report; mv value-0 value-1", "value-1: it is not value 2 of the sweep");
+  refused("escape",
+          "printf '\\377' | dd of=value-0 bs=1 seek=20000 conv=notrunc; rm value-0.report",
+          "value-0: ");
+  shell("rm -rf a.h5*; cp -r kept a.h5.part");
+  EXPECT_EQ(shell("$carom escape --resume a.h5").status, 0);
+
+  shell(
+      "rm -rf a.h5* kept; $carom run stadium --closed --quiet --collisions 300000 --sweep "
+      "table.half_length=lin:1:2:5 -o a.h5 & pid=$!; "
+      "until_there a.h5.part/value-1.report; kill -9 $pid; wait $pid; mv a.h5.part kept");
+  refused("run", "printf '\\377' | dd of=value-1 bs=1 seek=20000 conv=notrunc", "value-1: it ");
+  refused("run", "rm value-0", "value-0: it is missing");
+  refused("run", "cp value-0 value-1", "value-1: it ");
+  refused("run", "sed -i 's/\"status\": \"completed\"/\"status\": \"escaped\"/' value-1.report",
+          "value-1.report: it was changed");
+}
+
+// A value that cannot be trusted says so in its row, and in the exit status, also when the sweep is
+// shown again or goes on.
+TEST(Sweep, KeepsTheDoubtsOfSplitting) {
+  const Shell shell;
+  shell(
+      "cat > half.toml << 'END'\n[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n"
+      "[[table.hole]]\nwall = \"left\"\ncenter = 0.5\nwidth = 0.2\n"
+      "[[potential]]\nkind = \"expression\"\nexpression = \"0*sqrt(1/2 - x) + y^2/8\"\n"
+      "[particles]\nspeed = 1\n[initial]\nkind = \"rectangle\"\nmin = [0.2, 0.1]\n"
+      "max = [0.45, 0.9]\n[integrator]\nstep = 0.01\nEND");
+  const std::string command =
+      "$carom escape ./half.toml --splitting 0.1,0.2 --population 20 --repetitions 2 --quiet ";
+  const Outcome alone = shell(command);
+  EXPECT_EQ(alone.status, 3) << alone.err;
+  EXPECT_NE(alone.out.substr(0, alone.out.find('\n')).find("could not be followed"),
+            std::string::npos)
+      << alone.out;
+  const Outcome swept = shell(command + "--sweep run.seed=list:1,2 -o a.h5 --json");
+  EXPECT_EQ(swept.status, 3) << swept.err;
+  ASSERT_EQ(rows_of(swept.out).size(), 2u);
+  for (const std::string& row : rows_of(swept.out)) {
+    EXPECT_NE(row.find("\"doubts\": \""), std::string::npos) << row;
+    EXPECT_NE(row.find("\"note\": \"populations of 20 trajectories"), std::string::npos) << row;
+  }
+  const Outcome shown = shell("$carom escape --resume a.h5 --json");
+  EXPECT_EQ(shown.status, 3);
+  EXPECT_EQ(rows_of(shown.out), rows_of(swept.out)) << shown.err;
+}
+
 // Each value as its command alone, with the same options; a stored sweep is printed again.
 TEST(Sweep, OfAnAnalysisKeepsItsOptions) {
   const Shell shell;

@@ -173,5 +173,20 @@ TEST(FreePaths, NeedFreeParticles) {
   EXPECT_THROW(run_diffusion(system), InputError);
 }
 
+// No mean where there are no hits, and a bin where all flights are short against it.
+TEST(FreePaths, OfFewFlightsAreCounted) {
+  FreePathSums none(100.0), few(100.0);
+  none.add(0, {{}, {}, 0, 100.0});
+  const FreePaths without = free_paths_of(none);
+  EXPECT_TRUE(std::isnan(without.mean.value));
+  EXPECT_EQ(without.at_start.flights, 0u);
+  few.add(0, {{}, {0.5}, 1, 100.0});
+  const FreePaths short_ones = free_paths_of(few);
+  EXPECT_EQ(short_ones.mean.value, 100.0);
+  ASSERT_EQ(short_ones.at_start.bins.size(), 1u);
+  EXPECT_EQ(short_ones.at_start.bins[0].count, 1u);
+  EXPECT_GT(short_ones.at_start.bins[0].to, 0.5);
+}
+
 }  // namespace
 }  // namespace carom

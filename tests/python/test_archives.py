@@ -144,6 +144,30 @@ def test_an_opened_result_says_what_its_archive_does_not_hold(tmp_path):
     assert opened.state_error is None and "archive" in opened.state_error_reason
 
 
+def test_an_opened_result_has_the_time_of_its_computing(tmp_path):
+    made = {
+        "run": carom.run("stadium", collisions=20_000),
+        "forces": carom.run("henon-heiles", t_max=5),
+        "section": carom.section("stadium", orbits=20, points=100),
+        "relax": carom.relax("wigner", starts=20),
+        "orbits": carom.orbits("stadium", hits=2, starts=500),
+        "escape": carom.escape("stadium", trajectories=200, t_max=10),
+    }
+    for name, result in made.items():
+        result.save(tmp_path / f"{name}.h5")
+        opened = carom.open(tmp_path / f"{name}.h5")
+        assert result.seconds > 0 and result.cpu_seconds > 0
+        assert (opened.seconds, opened.cpu_seconds) == (result.seconds, result.cpu_seconds), name
+
+
+def test_an_opened_run_counts_as_it_did(tmp_path):
+    made = carom.run("wigner", t_max=5, sample=0.3)
+    made.save(tmp_path / "run.h5")
+    opened = carom.open(tmp_path / "run.h5")
+    for key in ("steps", "force_evaluations"):
+        assert getattr(opened, key) == getattr(made, key)
+
+
 def test_a_section_keeps_its_energy_error(tmp_path):
     made = carom.section(
         "henon-heiles", on="x=0", points=20, orbits=2, t_max=200,

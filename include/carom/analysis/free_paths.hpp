@@ -83,7 +83,7 @@ struct FreePathDistribution {
 
 struct FreePaths {
   double limit = 0.0;
-  Estimate mean;  ///< length of all that was flown, over the number of hits
+  Estimate mean;  ///< length of all that was flown, over the number of hits; NaN: there are none
   FreePathDistribution between, at_start;
 };
 /// Errors are the jackknife's over groups of trajectories.

@@ -21,7 +21,8 @@ struct OrbitSearchOptions {
   bool expand_cycles = false;    ///< rate and exponent from the orbits: discs in the open plane
   int threads = 0;               ///< 0: as many as OpenMP gives
   const std::atomic<bool>* interrupted = nullptr;
-  std::function<void(std::uint64_t tried, std::uint64_t all)> progress = {};
+  /// Of the starts that are flown, and then of the chains of hits that are tried.
+  std::function<void(std::uint64_t done, std::uint64_t all)> progress = {};
 };
 
 /// Most words that a search goes through.

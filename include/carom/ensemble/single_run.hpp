@@ -48,11 +48,19 @@ struct RunEnd {
   std::string report;  ///< of lost, unresolved and singular ones (events/report.hpp)
 };
 
+/// Evaluations of the forces, from which a run that goes on counts.
+struct Evaluations {
+  std::uint64_t count = 0;
+  bool predicted = false;  ///< those of the steps under way are among them
+};
+
 /// How to run one trajectory, and from where to go on.
 struct SingleRunOptions {
   DecisionOptions decisions;
   std::vector<ParticleProgress> resume;  ///< empty: start afresh
   StepCounts steps;                      ///< of the part that is resumed
+  Evaluations evaluations;               ///< likewise
+  double seconds = 0, cpu_seconds = 0;   ///< of that part
   std::function<bool()>
       interrupted;  ///< asked between events, and while starts are drawn: SamplingStopped
   std::function<void(const World&)> started;  ///< told once, when all starts are in the world
@@ -71,10 +79,11 @@ struct SingleRunResult {
   std::uint64_t collisions = 0;
   std::uint64_t contacts = 0;             ///< of hard discs, each pair once
   StepCounts steps;                       ///< under forces
+  Evaluations evaluations;                ///< under forces
   std::optional<StateError> state_error;  ///< under forces, where it is asked for
   std::string no_state_error;  ///< why it was asked for under forces and there is none; else ""
   DecisionCounts decisions;
-  double seconds = 0, cpu_seconds = 0;
+  double seconds = 0, cpu_seconds = 0;  ///< of all parts
 };
 
 /// A t_max that means: until the cap on hits, however long it takes.

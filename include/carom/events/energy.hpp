@@ -1,6 +1,7 @@
 // Energy, momentum and angular momentum of the particles of one instant.
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "carom/events/dynamics.hpp"
@@ -29,9 +30,12 @@ struct EnergyError {
 /// What is seen of the energy of a particle under forces, or of all particles together where they
 /// interact.
 struct EnergyBalance {
-  double change = 0.0;   ///< since the start, at the end of the latest step
-  double largest = 0.0;  ///< the largest change after a step or at a hit, without its sign
-  double kinetic = 0.0;  ///< the largest kinetic energy where a step began
+  double change = 0.0;      ///< since the start, at the end of the latest step
+  double largest = 0.0;     ///< the largest change after a step or at a hit, without its sign
+  double kinetic = 0.0;     ///< the largest kinetic energy where a step began
+  double change_low = 0.0;  ///< what a double does not hold of the change
+  /// The energy after the latest step, from which the next change counts; NaN: it is not known.
+  double last = std::numeric_limits<double>::quiet_NaN();
 
   /// With what is seen at the end.
   EnergyError error_at_end(double change_at_end, double kinetic_at_end) const;

@@ -26,4 +26,11 @@ struct StepCounts {
   }
 };
 
+/// Evaluations of the forces that a trajectory which goes on makes again: for states within the
+/// steps under way.
+struct StepsUnderWay {
+  std::uint64_t evaluations = 0;
+  bool predicted = true;  ///< not those of the steps themselves; false: an interrupt dropped these
+};
+
 }  // namespace carom

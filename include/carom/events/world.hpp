@@ -91,6 +91,7 @@ class World {
   const DecisionCounts& decisions() const;
   /// What integration has cost since the last clear().
   const StepCounts& step_counts() const;
+  StepsUnderWay steps_under_way() const;
 
   /// From the next step on, energies are looked at after each one and at each hit. Else
   /// energy_balance knows nothing but kinetic ones.

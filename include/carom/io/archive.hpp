@@ -114,6 +114,8 @@ struct StoredRun {
   std::string engine;  ///< "events", "steps" or "auto"
   std::vector<ParticleProgress> particles;
   StepCounts steps;
+  Evaluations evaluations;
+  double seconds = 0.0, cpu_seconds = 0.0;
   std::optional<std::uint64_t> trajectory;  ///< none: an earlier build did not store it
 };
 /// Throws InputError for anything but the archive of a finished or interrupted run.
@@ -197,6 +199,9 @@ void refuse_other_version(const StoredEnsemble&);
 /// are keys that may.
 std::string difference(const std::string& toml, const std::string& other_toml,
                        const std::vector<std::string>& but = {});
+/// Keys that the report of an ensemble alone asks for: they may differ in what goes on with it and
+/// in its parts. A window, but for exponents, which are added up within theirs.
+std::vector<std::string> keys_of_reports(const StoredEnsemble&);
 
 /// A part of a sum.
 struct EnsemblePart {

@@ -13,6 +13,7 @@
 #include "cli/commands/run_certified.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
+#include "cli/reports/doubts.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {
@@ -211,12 +212,13 @@ int certified_sample(const Options& options) {
             io::with_prefix(static_cast<double>(done) / progress.seconds()) + "certified orbits/s");
     });
   }
+  const PairedEscapeResult& result = sample.result;
+  const Doubts doubts = doubts_of_failures(result.unresolved, result.lost);
   print_report(
       options, [&] { return sample_json(loaded.system, sample); },
-      [&] { return sample_text(loaded.system, sample, rows_of(options)); });
-  const PairedEscapeResult& result = sample.result;
-  if (result.lost + result.unresolved > 0) return untrusted;
-  return result.complete ? done : stopped;
+      [&] { return doubts.folded_text() + sample_text(loaded.system, sample, rows_of(options)); },
+      doubts.text());
+  return doubts.status(result.complete);
 }
 
 }  // namespace carom::cli

@@ -27,11 +27,16 @@ SystemOverrides overrides_of(const Options& options) {
   return overrides;
 }
 
-// What may differ from what is stored: a window that the report alone asks for. Exponents are added
-// up within theirs.
-std::vector<std::string> may_differ(const StoredEnsemble& stored) {
-  if (stored.kind == kind_of(LyapunovResult())) return {};
-  return {"run.window"};
+// Is it the value of the sweep's plan?
+void refuse_other_value(const ValueOfSweep& value, const StoredEnsemble& stored,
+                        const LoadedSystem& loaded) {
+  // As this build writes it: that of an earlier one may lack keys.
+  const std::string planned = read_system(value.system_toml, value.system_name).resolved_toml;
+  const std::string differs = difference(planned, loaded.resolved_toml, keys_of_reports(stored));
+  if (!differs.empty())
+    throw InputError(Place{stored.file, 0, 0, ""},
+                     fmt::format("it is not value {} of the sweep: {}", value.index + 1, differs),
+                     "a sweep as carom wrote it");
 }
 
 // Loads the system that is stored, and refuses another one.
@@ -46,11 +51,12 @@ LoadedSystem loaded_of(const StoredEnsemble& stored, const Options& options) {
           ? read_system(stored.system_toml, stored.file + ": /system", overrides_of(options))
           : load_system(options.system, overrides_of(options));
   const std::string differs =
-      difference(stored.system_toml, loaded.resolved_toml, may_differ(stored));
+      difference(stored.system_toml, loaded.resolved_toml, keys_of_reports(stored));
   if (!differs.empty() && !options.system.empty() && options.system != stored.system_name)
     refuse(
         fmt::format("the system is {}, not {}: {}", options.system, stored.system_name, differs));
   if (!differs.empty()) refuse(differs);
+  if (options.of_sweep) refuse_other_value(*options.of_sweep, stored, loaded);
   System& system = loaded.system;
   system.name = stored.system_name;
   if (!system.run.window)

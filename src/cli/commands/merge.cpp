@@ -1,6 +1,7 @@
 // carom merge: parts of an ensemble become one archive.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -60,13 +61,14 @@ io::SweepPlan common_plan(const std::vector<std::string>& files) {
   return common;
 }
 
-// Parts of a sweep: value after value.
+// Parts of a sweep: value after value. The highest exit status of them.
 template <class Result>
-void merge_values(const Options& options, const std::string& output,
-                  const std::vector<std::string>& files, SweepResult& merged) {
+int merge_values(const Options& options, const std::string& output,
+                 const std::vector<std::string>& files, SweepResult& merged) {
   Options one = options;
   one.command = merged.plan.command;
   merged.status = "completed";
+  int worst = done;
   for (std::size_t i = 0; i < merged.plan.systems.size(); ++i) {
     const TemporaryFolder folder;
     std::vector<std::string> parts, names;
@@ -76,16 +78,18 @@ void merge_values(const Options& options, const std::string& output,
         names.push_back(files[k]);
       }
     auto value = std::make_shared<ValueOfSweep>();
-    value->take = [&](const io::Json& report, const std::string&) {
-      merged.rows.push_back({i, report});
+    value->take = [&](const io::Json& report, const std::string& doubts) {
+      merged.rows.emplace_back(i, report, doubts);
     };
     one.of_sweep = value;
     if (parts.empty()) continue;
-    merge_parts<Result>(one, io::value_of_sweep(output, i), parts, names, nullptr);
-    io::keep_report(output, i, merged.rows.back().report.text());
+    worst = std::max(
+        worst, merge_parts<Result>(one, io::value_of_sweep(output, i), parts, names, nullptr));
+    io::keep_report(output, merged.plan, i, merged.rows.back().report.text());
     if (!is_complete(io::value_of_sweep(output, i))) merged.status = "incomplete";
   }
   if (merged.rows.size() < merged.plan.systems.size()) merged.status = "incomplete";
+  return worst;
 }
 
 int merge_sweeps(const Options& options, const std::string& output,
@@ -94,19 +98,21 @@ int merge_sweeps(const Options& options, const std::string& output,
   merged.plan = common_plan(files);
   io::give_up_checkpoint(output);
   io::keep_plan(output, merged.plan);
+  int worst = done;
   try {
     if (merged.plan.command == kind_of(DiffusionResult()))
-      merge_values<DiffusionResult>(options, output, files, merged);
+      worst = merge_values<DiffusionResult>(options, output, files, merged);
     else if (merged.plan.command == kind_of(LyapunovResult()))
-      merge_values<LyapunovResult>(options, output, files, merged);
+      worst = merge_values<LyapunovResult>(options, output, files, merged);
     else
-      merge_values<EscapeResult>(options, output, files, merged);
+      worst = merge_values<EscapeResult>(options, output, files, merged);
+    if (const auto error = why_nothing(merged)) throw *error;
     end_sweep(options, merged, output, {});
   } catch (...) {
     io::remove_sweep(output);
     throw;
   }
-  return done;
+  return worst;
 }
 
 }  // namespace

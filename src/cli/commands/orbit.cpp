@@ -34,13 +34,15 @@ int digits_of_orbits(const Options& options, const Table& table) {
 }
 
 ProofsOfOrbits proofs_of_orbits(const Options& options, const LoadedSystem& loaded,
-                                const OrbitSearchResult& result,
-                                const std::atomic<bool>& interrupted) {
+                                OrbitSearchResult& result, const std::atomic<bool>& interrupted) {
   ProofsOfOrbits all;
   if (!options.certify) return all;
   all.digits = digits_of_orbits(options, *loaded.system.table);
   for (const PeriodicOrbit& orbit : result.orbits) {
-    if (interrupted.load(std::memory_order_relaxed)) break;
+    if (interrupted.load(std::memory_order_relaxed)) {
+      result.complete = false;
+      break;
+    }
     if (orbit.family) {
       all.orbits.emplace_back();
       all.orbits.back().reason = "its neighbours are periodic, too";

@@ -13,8 +13,9 @@ namespace carom::cli {
 /// Throws InputError naming the option.
 OrbitSearchOptions orbit_search_options(const Options&);
 
-/// With --certify: each orbit proven, or why not, to --digits; else none. Fewer where interrupted.
-ProofsOfOrbits proofs_of_orbits(const Options&, const LoadedSystem&, const OrbitSearchResult&,
+/// With --certify: each orbit proven, or why not, to --digits; else none. Fewer where interrupted:
+/// then the search is not complete.
+ProofsOfOrbits proofs_of_orbits(const Options&, const LoadedSystem&, OrbitSearchResult&,
                                 const std::atomic<bool>& interrupted);
 /// --digits, or its default. Throws InputError, also where it goes without --certify.
 int digits_of_orbits(const Options&, const Table&);

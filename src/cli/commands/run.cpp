@@ -180,6 +180,9 @@ int run(const Options& options) {
     catch_interrupts();
     how.resume = stored.particles;
     how.steps = stored.steps;
+    how.evaluations = stored.evaluations;
+    how.seconds = stored.seconds;
+    how.cpu_seconds = stored.cpu_seconds;
     how.trajectory = stored.trajectory;
     refuse_going_back(loaded.system, stored);
     refuse_other_times(loaded.system, stored);

@@ -109,9 +109,14 @@ SplittingPlan plan_of(const Options& options) {
   return plan;
 }
 
-std::vector<std::string> warnings_of(const SplittingResult& result) {
+Doubts doubts_of(const SplittingResult& result) {
+  Doubts doubts = doubts_of_failures(result.unresolved, result.lost);
+  for (const std::string& report : result.reports) doubts.lines.emplace_back(shown(report));
+  return doubts;
+}
+
+std::vector<std::string> notes_of(const SplittingResult& result) {
   std::vector<std::string> lines;
-  for (const std::string& report : result.reports) lines.emplace_back(shown(report));
   const char* const variable = variable_of(result);
   if (result.plan.population < Extrapolated::least_population)
     lines.push_back(
@@ -160,8 +165,10 @@ Json splitting_json(const System& system, const SplittingResult& result) {
     rates.push(json_of(rate.value,
                        Json::object().set("t", rate.t).set("from", rate.from).set("to", rate.to),
                        !(rate.from >= extinction)));
+  std::vector<std::string> notes = notes_of(result);
   if (std::isfinite(extinction))
-    json.set("note", fmt::format("{} by {} = {:.6g}", all_died_out, variable, extinction));
+    notes.push_back(fmt::format("{} by {} = {:.6g}", all_died_out, variable, extinction));
+  if (!notes.empty()) json.set("note", fmt::format("{}", fmt::join(notes, "; ")));
   json.set(by_time ? "survival" : "survival_hits", std::move(points));
   if (by_time) json.set("rate", std::move(rates));
   json.set("fit", split_fit_json(fit_decay(result, system.run.window)));
@@ -175,12 +182,13 @@ std::string splitting_text(const System& system, const SplittingResult& result, 
   const std::vector<SplitPoint> points_of_p = survival(result);
   const double extinction = extinction_of(points_of_p);
   const double rejected = share_rejected(result);
-  std::string text = heading(system) + fmt::format(
-                                           "{} of {} at each of three kicks,\n"
-                                           "{:.3g} and its half and quarter, seed {}\n\n",
-                                           counted(result.runs.front().size(), "population"),
-                                           counted(result.plan.population, "trajectory"),
-                                           result.plan.kick, system.run.seed);
+  std::string text =
+      doubts_of(result).folded_text() + heading(system) +
+      fmt::format(
+          "{} of {} at each of three kicks,\n"
+          "{:.3g} and its half and quarter, seed {}\n\n",
+          counted(result.runs.front().size(), "population"),
+          counted(result.plan.population, "trajectory"), result.plan.kick, system.run.seed);
   EstimateTable p_table, rate_table;
   std::vector<std::string> equivalent;
   for (const std::size_t row : every_kth(points_of_p.size(), most)) {
@@ -240,12 +248,14 @@ int splitting(const Options& options) {
       };
     result = run_splitting(system, plan_of(options), how);
   }
-  for (const std::string& line : warnings_of(result)) warn(line);
+  const Doubts doubts = doubts_of(result);
+  for (const std::string& line : doubts.lines) warn(line);
+  for (const std::string& line : notes_of(result)) warn(line);
   print_report(
       options, [&] { return splitting_json(system, result); },
-      [&] { return splitting_text(system, result, options.verbose, rows_of(options)); });
-  if (result.lost + result.unresolved > 0) return untrusted;
-  return result.complete ? done : stopped;
+      [&] { return splitting_text(system, result, options.verbose, rows_of(options)); },
+      doubts.text());
+  return doubts.status(result.complete);
 }
 
 }  // namespace carom::cli

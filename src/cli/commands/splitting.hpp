@@ -7,14 +7,17 @@
 
 #include "carom/ensemble/splitting.hpp"
 #include "cli/options.hpp"
+#include "cli/reports/doubts.hpp"
 #include "io/json.hpp"
 
 namespace carom::cli {
 
 /// What the options ask for. Throws InputError.
 SplittingPlan plan_of(const Options&);
-/// What a reader has to know before the result, a line each.
-std::vector<std::string> warnings_of(const SplittingResult&);
+/// Trajectories that failed, and why the first of them did.
+Doubts doubts_of(const SplittingResult&);
+/// What else a reader has to know before the result, a line each.
+std::vector<std::string> notes_of(const SplittingResult&);
 io::Json splitting_json(const System&, const SplittingResult&);
 /// `verbose`: with the digest; `rows`: at most so many times in a table.
 std::string splitting_text(const System&, const SplittingResult&, bool verbose = false,

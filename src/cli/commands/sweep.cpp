@@ -112,6 +112,9 @@ void Sweep::go_on(const std::string& file) {
   restore_options(result_.plan, options_);
   if (complete_) return;
   lock_ = lock_output(options_, file_);
+  // Now, and not after hours of computing.
+  for (std::size_t i = 0; !stored && i < result_.plan.systems.size(); ++i)
+    io::kept_report(file_, result_.plan, i);
   catch_interrupts();
   if (stored) io::unpack_sweep(file_);
 }
@@ -125,9 +128,9 @@ bool Sweep::has_begun(std::size_t index) const {
 // nothing: its archive does not say why.
 bool Sweep::take_kept_report(std::size_t index) {
   if (file_.empty()) return false;
-  const auto report = io::kept_report(file_, index);
+  const auto report = io::kept_report(file_, result_.plan, index);
   if (!report) return false;
-  SweepRow row{index, Json::parse(*report, file_)};
+  SweepRow row(index, Json::parse(*report, file_));
   if (is_plain_ensemble(options_) && !row.measured_nothing()) return false;
   result_.rows.push_back(std::move(row));
   return true;
@@ -147,9 +150,7 @@ int Sweep::compute(std::size_t index, const std::string& archive, bool goes_on) 
   value->system_name = result_.plan.system_name;
   value->system_toml = result_.plan.systems[index];
   value->take = [&](const Json& report, const std::string& doubts) {
-    Json row = report;
-    if (!doubts.empty()) row.set("doubts", doubts);
-    result_.rows.push_back({index, std::move(row)});
+    result_.rows.emplace_back(index, report, doubts);
   };
   one.of_sweep = value;
   return command_(one);
@@ -170,14 +171,18 @@ int Sweep::compute_all() {
     }
     task = tell(task);
     if (task == stop_here) return stopped;
-    if (task == skip_value) continue;
+    if (task == skip_value) {
+      if (first() && !result_.rows.back().doubts().empty()) worst = std::max<int>(worst, untrusted);
+      continue;
+    }
     const std::string archive = file_.empty() ? "" : io::value_of_sweep(file_, i);
+    if (first() && !file_.empty()) io::remove_report(file_, i);  // of what is gone on with
     const int status = compute(i, archive, task == resume_value);
     if (status == bad_input || status == usage) return status;
     const bool ended = status != stopped;
     if (first() && !file_.empty() && !result_.rows.empty()) {
       if (ended || is_plain_ensemble(options_)) {
-        io::keep_report(file_, i, result_.rows.back().report.text());
+        io::keep_report(file_, result_.plan, i, result_.rows.back().report.text());
       } else {
         std::remove(archive.c_str());
         result_.rows.pop_back();
@@ -196,7 +201,7 @@ int Sweep::show_stored() {
   int worst = done;
   for (std::size_t i = 0; i < stored.reports.size(); ++i) {
     if (!again) {
-      result_.rows.push_back({i, Json::parse(stored.reports[i], file_)});
+      result_.rows.emplace_back(i, Json::parse(stored.reports[i], file_));
       if (!result_.rows.back().doubts().empty()) worst = untrusted;
       continue;
     }
@@ -216,7 +221,7 @@ int Sweep::show_stored() {
 void Sweep::say_what_is_kept() {
   bool any = false;
   for (std::size_t i = 0; i < result_.plan.systems.size() && !any; ++i)
-    any = has_begun(i) || io::kept_report(file_, i);
+    any = has_begun(i) || io::has_report(file_, i);
   if (!any) return io::remove_sweep(file_);
   if (!options_.hidden_archive)
     warn(fmt::format("what was computed is kept; this goes on with it: carom {} --resume {}",

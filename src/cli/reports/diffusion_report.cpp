@@ -183,7 +183,6 @@ Json result_json(const System& system, const DiffusionResult& result,
   const DiffusionSummary summary = summary_of(system, result);
   Json json = ensemble_json(system, result, context);
   json.set("trajectories", result.trajectories);
-  json.set("survived", result.survived);
   add_fates(json, result);
   json.set("collisions", result.collisions);
   if (system.of_discs()) json.set("contacts", result.contacts);

@@ -107,7 +107,19 @@ Doubts doubts_of(const System& system, const SingleRunResult& r) {
   return doubts(system, r.particles.size(), "particle", unresolved, lost, reports_of(r), energy);
 }
 
+Doubts doubts_of_failures(std::uint64_t unresolved, std::uint64_t lost) {
+  Doubts doubts{{}, unresolved + lost};
+  if (lost > 0)
+    doubts.lines.push_back(fmt::format("internal error, please report it: {} {} lost",
+                                       counted(lost, "trajectory"), lost == 1 ? "is" : "are"));
+  if (unresolved > 0)
+    doubts.lines.push_back(
+        fmt::format("{} could not be followed", counted(unresolved, "trajectory")));
+  return doubts;
+}
+
 void add_fates(Json& json, const FateCounts& counts) {
+  json.set("survived", counts.survived);
   json.set("pinned", counts.pinned);
   json.set("escaped", counts.escaped);
   json.set("capped", counts.capped);

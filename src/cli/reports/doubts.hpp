@@ -34,10 +34,13 @@ Doubts doubts_of(const System&, const DiffusionResult&);
 Doubts doubts_of(const System&, const LyapunovResult&);
 Doubts doubts_of(const System&, const SectionResult&);
 Doubts doubts_of(const System&, const SingleRunResult&);
+/// That so many trajectories failed.
+Doubts doubts_of_failures(std::uint64_t unresolved, std::uint64_t lost);
 /// "" or what is said of the energy.
 std::string energy_doubt(const System&, const EnergyError&);
 
-/// The keys `pinned`, `escaped`, `capped`, `singular`, `unbounded`, `unresolved`, `lost`.
+/// The keys `survived`, `pinned`, `escaped`, `capped`, `singular`, `unbounded`, `unresolved`,
+/// `lost`.
 void add_fates(io::Json&, const FateCounts&);
 /// The same as text, "3 escaped, 1 lost: …"; "" if no particle ended so.
 std::string fates_text(const FateCounts&);

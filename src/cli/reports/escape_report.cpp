@@ -116,7 +116,6 @@ Json result_json(const System& system, const EscapeResult& result, const Ensembl
   const SurvivalCounts& counts = result.counts;
   Json json = ensemble_json(system, result, context);
   json.set("trajectories", counts.trajectories);
-  json.set("survived", counts.survived);
   add_fates(json, counts);
   json.set("collisions", counts.collisions);
   if (system.of_discs()) json.set("contacts", counts.contacts);

@@ -96,7 +96,10 @@ std::string free_paths_text(const System& system, const DiffusionResult& result,
       fmt::format("\nFree paths between hits: {} flights, {} of {:.6g} or longer\n",
                   grouped(paths.between.flights), grouped(paths.between.longer), paths.limit);
   text += table_of(paths.between, context);
-  text += "mean " + with_error(paths.mean);
+  if (std::isfinite(paths.mean.value))
+    text += "mean " + with_error(paths.mean);
+  else
+    text += "there is no mean: no particle has hit a wall";
   if (const std::optional<double> expected = expected_mean(system, result))
     text += fmt::format("   (pi area / perimeter = {:.6g})", *expected);
   text += "\n";

@@ -315,7 +315,6 @@ Json result_json(const System& system, const LyapunovResult& result,
   const std::string reason = no_exponent(system, result, e);
   Json json = ensemble_json(system, result, context);
   json.set("trajectories", result.trajectories).set("orbits", sums.totals().orbits);
-  json.set("survived", result.survived);
   add_fates(json, result);
   json.set("collisions", result.collisions);
   if (system.of_discs()) json.set("contacts", result.contacts);

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "carom/base/error.hpp"
@@ -13,7 +14,12 @@ namespace carom::cli {
 
 /// A value that was computed.
 struct SweepRow {
-  std::size_t index = 0;
+  /// `text`: the doubts about it, or "".
+  SweepRow(std::size_t row, io::Json printed, const std::string& text = {})
+      : index(row), report(std::move(printed)) {
+    if (!text.empty()) report.set("doubts", text);
+  }
+  std::size_t index;
   io::Json report;  ///< as the command prints it with --json, with `doubts` if there are any
   /// Why it cannot be trusted, a line each; "" if it can.
   std::string doubts() const;

@@ -11,7 +11,8 @@ std::size_t EnergyWatch::entry_of(const Group& group) const {
 }
 
 void EnergyWatch::add(double kinetic) {
-  balances_.push_back({0.0, 0.0, kinetic});
+  balances_.emplace_back();
+  balances_.back().kinetic = kinetic;
   changes_.emplace_back();
 }
 
@@ -40,13 +41,17 @@ void EnergyWatch::after_step(Group& group) {
   EnergyBalance& balance = balances_[entry_of(group)];
   Twofold& change = changes_[entry_of(group)];
   change = change + group.change_of_energy();
-  balance.change = change.value();
+  balance.change = change.high;
+  balance.change_low = change.low;
+  balance.last = group.last_energy();
   balance.largest = larger(balance.largest, std::fabs(balance.change));
 }
 
+void EnergyWatch::forget_last(int body) { balances_[entry(body)].last = EnergyBalance().last; }
+
 void EnergyWatch::set_balance(int body, const EnergyBalance& balance) {
   balances_[entry(body)] = balance;
-  changes_[entry(body)] = balance.change;
+  changes_[entry(body)] = {balance.change, balance.change_low};
 }
 
 }  // namespace carom::events

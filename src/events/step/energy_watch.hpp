@@ -28,6 +28,8 @@ class EnergyWatch {
 
   const EnergyBalance& balance(int body) const { return balances_[entry(body)]; }
   void set_balance(int body, const EnergyBalance& balance);
+  /// The body's group has other members from now on: its energy is another one.
+  void forget_last(int body);
 
  private:
   std::size_t entry(int body) const { return together_ ? 0 : static_cast<std::size_t>(body); }

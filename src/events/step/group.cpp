@@ -134,6 +134,7 @@ Time Group::step_end(const Time& limit) const {
 
 void Group::drop_prediction() {
   next_ = {};
+  under_way_ = evaluations() - began_at_;
   stepper_.reset();  // and all that it remembers
   checked_.position.clear();
   make_stepper();
@@ -142,6 +143,8 @@ void Group::drop_prediction() {
 const Group::Next& Group::predict(const Time& limit) {
   next_ = {};
   between_.duration = -1.0;
+  under_way_ = 0;
+  began_at_ = evaluations();
   if (in_.plan.step > 0.0 && too_late(time_, in_.plan.step)) {
     whole_step_ = false;
     next_.fault =
@@ -285,9 +288,11 @@ State Group::state_at(std::size_t member, const Time& time) {
   const double duration = time - time_;
   // Not as a knot of the path: samples may be many.
   if (duration > 0.0 && duration != between_.duration) {
+    const std::uint64_t before = evaluations();
     listens_ = true;
     path_->move(duration, between_.phase);
     listens_ = false;
+    under_way_ += evaluations() - before;
     between_.duration = in_.interrupt && in_.interrupt->stopped() ? -1.0 : duration;
   }
   const Phase<double>& phase = duration > 0.0 ? between_.phase : phase_;

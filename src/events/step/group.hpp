@@ -89,6 +89,9 @@ class Group final : public ForceLaw<double> {
   Time next_time() const {
     return next_.member < 0 && whole_step_ ? path_end_ : time_ + next_.duration;
   }
+  /// Evaluations of the forces since what comes first was predicted, for states within the step
+  /// under way; all of a prediction that was dropped.
+  std::uint64_t evaluations_under_way() const { return under_way_; }
   /// A prediction was interrupted: forgets all that it computed. Another one is needed before
   /// anything else.
   void drop_prediction();
@@ -105,6 +108,11 @@ class Group final : public ForceLaw<double> {
   /// of the forces may have given.
   double energy();
   bool has_energy() const { return last_energy_.has_value(); }
+  /// What change_of_energy counts from; NaN: nothing yet.
+  double last_energy() const {
+    return last_energy_.value_or(std::numeric_limits<double>::quiet_NaN());
+  }
+  void set_last_energy(double energy) { last_energy_ = energy; }
   /// By how much that has changed since it was last asked for; 0 if others are members now.
   double change_of_energy();
   /// Forgets what is known of forces: whichever phase comes next, the same will be evaluated.
@@ -123,6 +131,7 @@ class Group final : public ForceLaw<double> {
   void pass(const Barrier<double>& edge) { passed_ = &edge; }
 
  private:
+  std::uint64_t evaluations() const { return in_.counts ? in_.counts->force_evaluations : 0; }
   bool interrupted(double work) const {
     return listens_ && in_.interrupt && in_.interrupt->after(work);
   }
@@ -198,8 +207,9 @@ class Group final : public ForceLaw<double> {
     double duration = -1.0;
     Phase<double> phase;
   } between_;
-  bool whole_step_ = false;  ///< the path under way ends at path_end_
-  Time path_end_;            ///< of the step
+  std::uint64_t began_at_ = 0, under_way_ = 0;  ///< evaluations of the forces
+  bool whole_step_ = false;                     ///< the path under way ends at path_end_
+  Time path_end_;                               ///< of the step
   std::unique_ptr<Stepper<double>> stepper_;
   std::unique_ptr<StepPath<double>> path_;
   std::vector<forces::ForceMap*> maps_;  ///< one a member

@@ -1,6 +1,7 @@
 #include "events/step/groups.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "events/step/group_hit.hpp"
 #include "events/step/surroundings.hpp"
@@ -67,6 +68,9 @@ void Groups::form(const std::vector<int>& members) {
     bodies_.schedule(members[k], never, EventKind::group);
   }
   group.set_time(bodies_[members.front()].state.time);
+  // Of a run that goes on. Groups within a range may not be the ones that they were.
+  const double last = energies_.balance(members.front()).last;
+  if (!regions_.by_range() && !std::isnan(last)) group.set_last_energy(last);
   predict(group);
 }
 
@@ -76,6 +80,7 @@ void Groups::take_out(int body) {
   b.state = group.state(b.member);
   b.group = nullptr;
   group.remove(b.member);
+  energies_.forget_last(body);
   for (std::size_t k = b.member; k < group.bodies().size(); ++k)
     bodies_[group.bodies()[k]].member = k;
   if (group.bodies().empty()) idle_.push_back(&group);
@@ -123,6 +128,13 @@ Group* Groups::ending_at(const Time& now) const {
     if (group != nullptr && group->time() < now && group->next_time() == now) return group;
   }
   return nullptr;
+}
+
+StepsUnderWay Groups::under_way() const {
+  StepsUnderWay steps{0, !unpredicted_};
+  for (const auto& group : groups_)
+    if (!group->bodies().empty()) steps.evaluations += group->evaluations_under_way();
+  return steps;
 }
 
 State Groups::state_at(int body, const Time& t) const {

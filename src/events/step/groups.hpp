@@ -50,6 +50,7 @@ class Groups {
   /// Walls and edges of supports.
   const std::vector<Barrier<double>>& barriers() const { return surroundings_.barriers; }
   const StepCounts& steps() const { return steps_; }
+  StepsUnderWay under_way() const;
   void watch_energy() { surroundings_.remember_energy = true; }
   EnergyWatch& energies() { return energies_; }
   const EnergyWatch& energies() const { return energies_; }

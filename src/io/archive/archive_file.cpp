@@ -26,7 +26,8 @@ using hdf5::Handle;
 
 namespace {
 
-constexpr const char* running = "running";
+constexpr const char *running = "running", *seconds_key = "seconds",
+                     *cpu_seconds_key = "cpu_seconds";
 
 std::string utc_now() {
   const std::time_t now = std::time(nullptr);
@@ -208,6 +209,26 @@ void ArchiveFile::start_swmr() const {
 void ArchiveFile::set_status(const std::string& status, bool complete) const {
   hdf5::change_attribute(id(), "status", std::string_view(status), name_);
   hdf5::change_attribute(id(), "complete", std::int64_t{complete}, name_);
+}
+
+void ArchiveFile::write_seconds(const Seconds& seconds) const {
+  const Handle provenance = open_group("provenance");
+  const auto write = [&](const char* name, double value) {
+    // The attributes of a run that others read are there before it begins.
+    if (H5Aexists(provenance.get(), name) > 0)
+      hdf5::change_attribute(provenance.get(), name, value, name_);
+    else
+      hdf5::write_attribute(provenance.get(), name, value, name_);
+  };
+  write(seconds_key, seconds.wall);
+  write(cpu_seconds_key, seconds.cpu);
+}
+
+Seconds ArchiveFile::read_seconds(hid_t provenance, const std::string& name) {
+  const auto read = [&](const char* key) {
+    return H5Aexists(provenance, key) > 0 ? hdf5::read_real_attribute(provenance, key, name) : 0.0;
+  };
+  return {read(seconds_key), read(cpu_seconds_key)};
 }
 
 void ArchiveFile::add_decisions(const DecisionCounts& counts) const {

@@ -10,6 +10,11 @@
 
 namespace carom::io {
 
+/// Time of the computing alone.
+struct Seconds {
+  double wall = 0.0, cpu = 0.0;
+};
+
 class ArchiveFile {
  public:
   /// Creates `path` (which is removed again unless kept) for the archive called `name` in messages.
@@ -33,6 +38,10 @@ class ArchiveFile {
   static std::vector<Origin> read_origins(hid_t provenance, const std::string& name);
   void start_swmr() const;
   void set_status(const std::string& status, bool complete) const;
+  /// How long the computing took, in /provenance: of all parts of a run.
+  void write_seconds(const Seconds&) const;
+  /// 0 where archives of earlier builds do not say.
+  static Seconds read_seconds(hid_t provenance, const std::string& name);
   /// Adds the counts of decisions to those of earlier parts of the run in /provenance.
   void add_decisions(const DecisionCounts&) const;
 

@@ -103,10 +103,4 @@ void read_integration(hid_t fates, const std::string& name, StepCounts& steps,
         read_number<double>(fates, number.name, fmt::format("/fates/{}", number.name), name);
 }
 
-std::uint64_t read_unresolved(hid_t fates, const std::string& name) {
-  return hdf5::has(fates, "unresolved")
-             ? read_number<std::uint64_t>(fates, "unresolved", "/fates/unresolved", name)
-             : 0;
-}
-
 }  // namespace carom::io

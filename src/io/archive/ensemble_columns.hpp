@@ -33,6 +33,9 @@ void read_counts(hid_t file, const std::string& name, DiffusionResult&);
 void write_counts(const ArchiveFile&, const LyapunovResult&, const System&);
 void read_counts(hid_t file, const std::string& name, LyapunovResult&);
 
+/// The fates of /fates. Read, they add up to `all` particles: InputError where they do not.
+void write_fates(const hdf5::Handle& fates, const FateCounts&, const std::string& name);
+FateCounts read_fates(const hdf5::Handle& fates, const std::string& name, std::uint64_t all);
 /// What /fates holds of ensembles whose particles are counted one by one, besides the fates.
 struct EnsembleNumbers {
   std::uint64_t particles = 0;  ///< of all trajectories
@@ -52,8 +55,6 @@ inline bool is_integrated(const System& system) {
 /// of it.
 void write_integration(hid_t fates, StepCounts, EnergyError, const std::string& name);
 void read_integration(hid_t fates, const std::string& name, StepCounts&, EnergyError&);
-/// 0 in archives of earlier builds, which called these particles lost.
-std::uint64_t read_unresolved(hid_t fates, const std::string& name);
 
 /// A group of an archive that is read; InputError where it is missing.
 hdf5::Handle open_group(hid_t file, const char* group, const std::string& name);

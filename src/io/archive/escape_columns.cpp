@@ -119,14 +119,7 @@ void write_counts(const ArchiveFile& file, const EscapeResult& result, const Sys
     hdf5::write_number(group.get(), name, value, {"1", text}, target);
   };
   number("trajectories", counts.trajectories, "All trajectories");
-  number("escaped", counts.escaped, "Left through a hole, or to infinity");
-  number("survived", counts.survived, "Still there at the end");
-  number("pinned", counts.pinned, "Survivors on a cyclotron orbit that never hits");
-  number("capped", counts.capped, "Survivors ended by the cap on hits");
-  number("singular", counts.singular, "Ended where no continuation is defined");
-  number("unbounded", counts.unbounded, "Escaped to infinity: no wall follows any more");
-  number("unresolved", counts.unresolved, "Ended where integration could not follow");
-  number("lost", counts.lost, "Internal errors: always 0");
+  write_fates(group, counts, target);
   number("collisions", counts.collisions, "Reflections of all trajectories");
   number("most_hits", counts.most_hits, "Most reflections of a single trajectory");
   number("fewest_hits_of_survivor", counts.fewest_hits_of_survivor,
@@ -222,14 +215,7 @@ void read_counts(hid_t file, const std::string& name, EscapeResult& result) {
     }
   }
   counts.trajectories = number("trajectories");
-  counts.escaped = number("escaped");
-  counts.survived = number("survived");
-  counts.pinned = number("pinned");
-  counts.capped = number("capped");
-  counts.singular = number("singular");
-  counts.unbounded = number("unbounded");
-  counts.unresolved = read_unresolved(fates.get(), name);
-  counts.lost = number("lost");
+  static_cast<FateCounts&>(counts) = read_fates(fates, name, counts.trajectories);
   counts.collisions = number("collisions");
   counts.most_hits = number("most_hits");
   counts.fewest_hits_of_survivor = number("fewest_hits_of_survivor");
@@ -237,11 +223,6 @@ void read_counts(hid_t file, const std::string& name, EscapeResult& result) {
   if (hdf5::has(fates.get(), "energy_change"))
     counts.energy_change =
         read_number<double>(fates.get(), "energy_change", "/fates/energy_change", name);
-  if (counts.escaped + counts.survived + counts.singular + counts.unresolved + counts.lost !=
-      counts.trajectories)
-    damaged(name, "'/fates' do not add up to '/fates/trajectories'");
-  if (counts.unbounded > counts.escaped)
-    damaged(name, "'/fates/unbounded' is more than '/fates/escaped'");
   const std::uint64_t gone = counts.escaped;
   if (total(counts.gone_in) > gone) damaged(name, "'/survival/gone' has more than '/fates'");
   if (counts.gone_at.total() > gone) damaged(name, "'/escape_times/gone' has more than '/fates'");

@@ -159,6 +159,11 @@ void change_attribute(hid_t object, const char* name, std::int64_t value, const 
   check(H5Awrite(attribute.get(), H5T_NATIVE_INT64, &value) >= 0, file);
 }
 
+void change_attribute(hid_t object, const char* name, double value, const std::string& file) {
+  const Handle attribute = checked(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, file);
+  check(H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, &value) >= 0, file);
+}
+
 std::vector<std::string> read_string_list_attribute(hid_t object, const char* name,
                                                     const std::string& file) {
   if (H5Aexists(object, name) <= 0) return {};

@@ -79,6 +79,7 @@ void write_fixed_attribute(hid_t object, const char* name, std::string_view valu
 void change_attribute(hid_t object, const char* name, std::string_view value,
                       const std::string& file);
 void change_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file);
+void change_attribute(hid_t object, const char* name, double value, const std::string& file);
 std::string read_string_attribute(hid_t object, const char* name, const std::string& file);
 /// Empty if there is no such attribute.
 std::vector<std::string> read_string_list_attribute(hid_t object, const char* name,

@@ -309,6 +309,7 @@ void write_orbits(const std::string& name, const LoadedSystem& loaded, const Pro
     hdf5::write_attribute(to, "names", walls, name);
   }
   if (!proofs.orbits.empty()) write_proofs(file, proofs);
+  file.write_seconds({found.seconds, found.cpu_seconds});
   file.set_status(found.complete ? "completed" : "interrupted", found.complete);
   file.keep_as(name);
   give_up_checkpoint(name);
@@ -378,6 +379,9 @@ StoredOrbits read_orbits(const std::string& name) {
   stored.system_toml = hdf5::read_text(file.get(), "system", name);
   const Handle provenance = opened("provenance");
   stored.system_name = hdf5::read_string_attribute(provenance.get(), "system", name);
+  const Seconds seconds = ArchiveFile::read_seconds(provenance.get(), name);
+  stored.result.seconds = seconds.wall;
+  stored.result.cpu_seconds = seconds.cpu;
   stored.result.threads =
       static_cast<int>(hdf5::read_integer_attribute(provenance.get(), "threads", name));
   return stored;

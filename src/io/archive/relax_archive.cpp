@@ -116,6 +116,7 @@ void write_equilibria(const std::string& target, const LoadedSystem& loaded,
     const Handle provenance = file.open_group("provenance");
     hdf5::change_attribute(provenance.get(), "threads", std::int64_t{result.threads}, target);
   }
+  file.write_seconds({result.seconds, result.cpu_seconds});
   file.set_status(result.complete ? "completed" : "interrupted", result.complete);
   file.keep_as(target);
   give_up_checkpoint(target);
@@ -136,6 +137,9 @@ StoredEquilibria read_equilibria(const std::string& name) {
   result.complete = hdf5::read_integer_attribute(file.get(), "complete", name) != 0;
   result.threads =
       static_cast<int>(hdf5::read_integer_attribute(provenance.get(), "threads", name));
+  const Seconds seconds = ArchiveFile::read_seconds(provenance.get(), name);
+  result.seconds = seconds.wall;
+  result.cpu_seconds = seconds.cpu;
   const Handle group = open_group(file.get(), "equilibria"),
                particles = open_group(file.get(), "equilibria/particles"),
                modes = open_group(file.get(), "equilibria/modes");

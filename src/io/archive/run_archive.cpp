@@ -13,6 +13,7 @@
 #include "io/archive/columns.hpp"
 #include "io/archive/contact_columns.hpp"
 #include "io/archive/ensemble_columns.hpp"
+#include "io/archive/state_fields.hpp"
 #include "io/archive/step_numbers.hpp"
 #include "io/archive/trust_columns.hpp"
 #include "io/checkpoint/ensemble_files.hpp"
@@ -32,111 +33,6 @@ std::vector<T> collect(const std::vector<RunEnd>& particles, Get get) {
   for (const RunEnd& particle : particles) values.push_back(static_cast<T>(get(particle)));
   return values;
 }
-
-// Names and types of /state, where its file layout, writing and reading meet.
-struct StateField {
-  const char* name;
-  bool real;
-  Description description;
-  double (*real_of)(const ParticleProgress&);
-  std::int64_t (*integer_of)(const ParticleProgress&);
-};
-using P = const ParticleProgress&;
-const StateField state_fields[] = {
-    {"wall",
-     false,
-     {"1", "Wall of the last event, -1: off the walls"},
-     nullptr,
-     [](P p) { return std::int64_t{p.state.wall}; }},
-    {"u", true, {"1", "Exact parameter on that wall"}, [](P p) { return p.state.u; }, nullptr},
-    {"x",
-     true,
-     {"length", "Position in the cell"},
-     [](P p) { return p.state.position.x; },
-     nullptr},
-    {"y",
-     true,
-     {"length", "Position in the cell"},
-     [](P p) { return p.state.position.y; },
-     nullptr},
-    {"vx", true, {"length/time", "Velocity"}, [](P p) { return p.state.velocity.x; }, nullptr},
-    {"vy", true, {"length/time", "Velocity"}, [](P p) { return p.state.velocity.y; }, nullptr},
-    {"speed",
-     true,
-     {"length/time", "What reflections keep; the velocity may differ from it by rounding"},
-     [](P p) { return p.speed; },
-     nullptr},
-    {"cell_first",
-     false,
-     {"1", "Cell of the lattice"},
-     nullptr,
-     [](P p) { return p.state.cell.first; }},
-    {"cell_second",
-     false,
-     {"1", "Cell of the lattice"},
-     nullptr,
-     [](P p) { return p.state.cell.second; }},
-    {"t_high",
-     true,
-     {"time", "Time of the last event, leading double"},
-     [](P p) { return p.state.time.high; },
-     nullptr},
-    {"t_low",
-     true,
-     {"time", "Time of the last event, trailing double"},
-     [](P p) { return p.state.time.low; },
-     nullptr},
-    {"end_high",
-     true,
-     {"time", "Time of the end, leading double"},
-     [](P p) { return p.end.high; },
-     nullptr},
-    {"end_low",
-     true,
-     {"time", "Time of the end, trailing double"},
-     [](P p) { return p.end.low; },
-     nullptr},
-    {"hits",
-     false,
-     {"1", "Reflections so far"},
-     nullptr,
-     [](P p) { return static_cast<std::int64_t>(p.hits); }},
-    {"contacts",
-     false,
-     {"1", "Contacts with other hard discs so far"},
-     nullptr,
-     [](P p) { return static_cast<std::int64_t>(p.contacts); }},
-    {"last_wall",
-     false,
-     {"1", "Wall of the last reflection, -1: none"},
-     nullptr,
-     [](P p) { return std::int64_t{p.last_wall}; }},
-    {"hole",
-     false,
-     {"1", "Hole it escaped through, -1: none"},
-     nullptr,
-     [](P p) { return std::int64_t{p.hole}; }},
-    {"energy_change",
-     true,
-     {"energy", "Change of the energy since the start"},
-     [](P p) { return p.energy.change; },
-     nullptr},
-    {"energy_largest",
-     true,
-     {"energy", "Largest change that was seen"},
-     [](P p) { return p.energy.largest; },
-     nullptr},
-    {"energy_kinetic",
-     true,
-     {"energy", "Largest kinetic energy that was seen"},
-     [](P p) { return p.energy.kinetic; },
-     nullptr},
-    {"fate",
-     false,
-     {"1", "Index into the attribute `names`"},
-     nullptr,
-     [](P p) { return static_cast<std::int64_t>(p.fate); }},
-};
 
 const std::pair<const char*, Description> energy_fields[] = {
     {"t", {"time", "Time of the sample"}},
@@ -204,7 +100,7 @@ class RunArchive::Implementation {
   void create_state(std::size_t particles);
   void write_state(const std::vector<RunEnd>& particles);
   void create_steps();
-  void write_steps(const StepCounts& steps);
+  void write_steps(const StepCounts& steps, const Evaluations& evaluations);
 
   ArchiveLock lock;  // first: it lets go last
   ArchiveFile file;
@@ -225,6 +121,7 @@ class RunArchive::Implementation {
 void RunArchive::Implementation::create(const LoadedSystem& loaded, const Provenance& origin,
                                         std::optional<std::uint64_t> trajectory) {
   file.write_head(run_archive_kind, loaded, origin);
+  file.write_seconds({});
   if (trajectory)
     hdf5::write_attribute(file.open_group("provenance").get(), trajectory_key, *trajectory,
                           file.name());
@@ -295,6 +192,8 @@ void RunArchive::Implementation::reopen(const LoadedSystem& loaded, const Proven
                      "was begun by an earlier build, whose hits have a column 'u'",
                      "an archive of this one: run it again");
   file.extend_head(loaded, origin);
+  const Handle provenance = file.open_group("provenance");
+  file.write_seconds(ArchiveFile::read_seconds(provenance.get(), file.name()));
   {
     const Handle group = file.open_group("collisions");
     const hid_t from = group.get();
@@ -352,12 +251,20 @@ void RunArchive::Implementation::create_steps() {
   for (const StepNumber& number : step_numbers)
     create(number.name, H5T_NATIVE_UINT64, {"1", number.text});
   create(first_unresolved, H5T_NATIVE_DOUBLE, {"time", "When the earliest of these began"});
+  create(going_on, H5T_NATIVE_UINT64,
+         {"1",
+          "Evaluations from which a run that goes on counts: but those for states within the "
+          "steps under way"});
+  create(predicted, H5T_NATIVE_UINT64,
+         {"1", "1: those of the steps under way are among them; 0: an interrupt dropped them"});
 }
 
-void RunArchive::Implementation::write_steps(const StepCounts& steps) {
+void RunArchive::Implementation::write_steps(const StepCounts& steps,
+                                             const Evaluations& evaluations) {
   if (!hdf5::has(file.id(), "steps")) return;
   const Handle group = file.open_group("steps");
   const auto write = [&](const char* name, hid_t type, const void* value) {
+    if (!hdf5::has(group.get(), name)) return;  // an earlier build began the archive
     Handle dataset = hdf5::checked(H5Dopen2(group.get(), name, H5P_DEFAULT), H5Dclose, file.name());
     hdf5::check(H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0,
                 file.name());
@@ -366,6 +273,9 @@ void RunArchive::Implementation::write_steps(const StepCounts& steps) {
   for (const StepNumber& number : step_numbers)
     write(number.name, H5T_NATIVE_UINT64, &(steps.*number.value));
   write(first_unresolved, H5T_NATIVE_DOUBLE, &steps.first_unresolved);
+  const std::uint64_t are_predicted = evaluations.predicted;
+  write(going_on, H5T_NATIVE_UINT64, &evaluations.count);
+  write(predicted, H5T_NATIVE_UINT64, &are_predicted);
 }
 
 RunArchive::RunArchive(std::unique_ptr<Implementation> implementation)
@@ -473,9 +383,10 @@ void RunArchive::finish(const SingleRunResult& result, const std::string& status
   a.contacts.close();
   a.energies.close();
   a.write_state(result.particles);
-  a.write_steps(result.steps);
+  a.write_steps(result.steps, result.evaluations);
   if (result.particles.front().trust.known)
     write_trust(a.file.open_group("trust").get(), result.particles, a.file.name());
+  a.file.write_seconds({result.seconds, result.cpu_seconds});
   a.file.add_decisions(result.decisions);
   a.file.set_status(status, !result.interrupted);
   a.file.keep_as(a.target);

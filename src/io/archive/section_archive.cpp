@@ -77,10 +77,12 @@ void SectionArchive::finish(const SectionResult& result, const std::string& stat
     for (const SectionNumber& number : section_numbers)
       hdf5::write_number(group.get(), number.name, result.*number.value, {"1", number.text},
                          a.target);
+    write_fates(group, result, a.target);
     if (a.integrated) write_integration(group.get(), result.steps, result.energy_error, a.target);
     const Handle provenance = a.file.open_group("provenance");
     hdf5::change_attribute(provenance.get(), "threads", std::int64_t{result.threads}, a.target);
   }
+  a.file.write_seconds({result.seconds, result.cpu_seconds});
   a.file.add_decisions(result.decisions);
   a.file.set_status(status, result.complete);
   a.file.keep_as(a.target);

@@ -19,5 +19,7 @@ inline constexpr StepNumber step_numbers[] = {
      "Steps longer than the forces they swept allow, which were counted"},
 };
 inline constexpr const char* first_unresolved = "first_unresolved";
+/// Of a run: from where it counts further.
+inline constexpr const char *going_on = "evaluations_going_on", *predicted = "predicted";
 
 }  // namespace carom::io

@@ -171,9 +171,16 @@ StoredSection read_section(const std::string& file) {
   read_integration(fates.get(), file, stored.result.steps, stored.result.energy_error);
   stored.result.complete = hdf5::read_integer_attribute(group.file(), "complete", file) != 0;
   stored.system_toml = hdf5::read_text(group.file(), "system", file);
+  const std::size_t particles =
+      read_system(stored.system_toml, file + ": /system").system.particles.size();
+  static_cast<FateCounts&>(stored.result) =
+      read_fates(fates, file, stored.result.orbits * particles);
   const Handle provenance(H5Gopen2(group.file(), "provenance", H5P_DEFAULT), H5Gclose);
   stored.system_name = hdf5::read_string_attribute(provenance.get(), "system", file);
   stored.engine = hdf5::read_string_attribute(provenance.get(), "engine", file);
+  const Seconds seconds = ArchiveFile::read_seconds(provenance.get(), file);
+  stored.result.seconds = seconds.wall;
+  stored.result.cpu_seconds = seconds.cpu;
   stored.result.threads =
       static_cast<int>(hdf5::read_integer_attribute(provenance.get(), "threads", file));
   return stored;

@@ -66,6 +66,9 @@ StoredRun read_run(const std::string& name) {
   const Handle provenance(H5Gopen2(file.get(), "provenance", H5P_DEFAULT), H5Gclose);
   run.system_name = hdf5::read_string_attribute(provenance.get(), "system", name);
   run.engine = hdf5::read_string_attribute(provenance.get(), "engine", name);
+  const Seconds seconds = ArchiveFile::read_seconds(provenance.get(), name);
+  run.seconds = seconds.wall;
+  run.cpu_seconds = seconds.cpu;
   if (H5Aexists(provenance.get(), trajectory_key) > 0)
     run.trajectory = hdf5::read_count_attribute(provenance.get(), trajectory_key, name);
 
@@ -83,12 +86,14 @@ StoredRun read_run(const std::string& name) {
   const auto u = reals("u"), x = reals("x"), y = reals("y"), vx = reals("vx"), vy = reals("vy"),
              high = reals("t_high"), low = reals("t_low"), end_high = reals("end_high"),
              end_low = reals("end_low");
-  const auto later = [&](const char* field) {  // 0 in archives of earlier builds
+  const auto later = [&](const char* field, double none = 0.0) {  // none in earlier builds
     const bool there = hdf5::has(state.get(), field);
-    return there ? reals(field) : std::vector<double>(wall.size(), 0.0);
+    return there ? reals(field) : std::vector<double>(wall.size(), none);
   };
   const auto change = later("energy_change"), largest = later("energy_largest"),
-             kinetic = later("energy_kinetic"), speed = later("speed");
+             kinetic = later("energy_kinetic"), speed = later("speed"),
+             change_low = later("energy_change_low"),
+             last = later("energy_last", EnergyBalance().last);
   for (std::size_t i = 0; i < wall.size(); ++i) {
     ParticleProgress p;
     p.state.wall = static_cast<int>(wall[i]);
@@ -104,7 +109,7 @@ StoredRun read_run(const std::string& name) {
     p.last_wall = static_cast<std::int32_t>(last_wall.at(i));
     p.hole = static_cast<std::int32_t>(hole.at(i));
     p.fate = static_cast<Fate>(fate.at(i));
-    p.energy = {change.at(i), largest.at(i), kinetic.at(i)};
+    p.energy = {change.at(i), largest.at(i), kinetic.at(i), change_low.at(i), last.at(i)};
     run.particles.push_back(p);
   }
   if (hdf5::has(file.get(), "steps")) {
@@ -112,6 +117,12 @@ StoredRun read_run(const std::string& name) {
     for (const StepNumber& number : step_numbers)
       run.steps.*number.value =
           hdf5::read_column<std::uint64_t>(steps.get(), number.name, name).at(0);
+    run.evaluations.count = run.steps.force_evaluations;
+    if (hdf5::has(steps.get(), going_on)) {
+      run.evaluations.count = hdf5::read_column<std::uint64_t>(steps.get(), going_on, name).at(0);
+      run.evaluations.predicted =
+          hdf5::read_column<std::uint64_t>(steps.get(), predicted, name).at(0) != 0;
+    }
     run.steps.first_unresolved =
         hdf5::read_column<double>(steps.get(), first_unresolved, name).at(0);
   }

@@ -60,10 +60,10 @@ std::vector<std::uint8_t> bytes_of(const std::string& file) {
   return bytes;
 }
 
-void write_value(const ArchiveFile& file, std::size_t index) {
+void write_value(const ArchiveFile& file, const SweepPlan& plan, std::size_t index) {
   const std::string &name = file.name(), path = path_of(index);
   const Handle group = file.group(path.c_str(), "A value: its report, its archive");
-  if (const auto report = kept_report(name, index))
+  if (const auto report = kept_report(name, plan, index))
     hdf5::write_text(group.get(), report_name, *report,
                      {"JSON", "What the command prints of it with --json"}, name);
   const std::string archive = value_of_sweep(name, index);
@@ -95,7 +95,7 @@ void write_sweep(const std::string& file, const LoadedSystem& base, const SweepP
     made.write_head(sweep_archive_kind, base, origin);
     write_table(made, plan, table);
     const Handle values = made.group("values", "The values of the sweep, from 0 on");
-    for (std::size_t i = 0; i < plan.systems.size(); ++i) write_value(made, i);
+    for (std::size_t i = 0; i < plan.systems.size(); ++i) write_value(made, plan, i);
     made.set_status(status, complete);
     made.keep_as(file);
   }
@@ -145,7 +145,7 @@ void unpack_sweep(const std::string& file) {
   const Handle archive = opened(file);
   for (std::size_t i = 0; i < stored.reports.size(); ++i) {
     extract(archive.get(), file, i, value_of_sweep(file, i));
-    if (!stored.reports[i].empty()) keep_report(file, i, stored.reports[i]);
+    if (!stored.reports[i].empty()) keep_report(file, stored.plan, i, stored.reports[i]);
   }
   keep_plan(file, stored.plan);  // last: from now on the folder is a sweep's
 }

@@ -76,8 +76,7 @@ void io::write_parts(const ArchiveFile& file, const EnsembleResult& result, cons
   if (!arithmetic.empty())
     hdf5::write_attribute(provenance.get(), arithmetic_key, std::string_view(arithmetic),
                           file.name());
-  hdf5::write_attribute(provenance.get(), "seconds", result.seconds, file.name());
-  hdf5::write_attribute(provenance.get(), "cpu_seconds", result.cpu_seconds, file.name());
+  file.write_seconds({result.seconds, result.cpu_seconds});
   file.add_decisions(result.decisions);
   write_done(file, result);
 }

@@ -42,7 +42,8 @@ void refuse_others(const StoredEnsemble& part, const StoredEnsemble& first) {
   };
   if (part.version != first.version)
     refuse(fmt::format("its version is {}, not {}", part.version, first.version));
-  const std::string differs = difference(first.system_toml, part.system_toml);
+  const std::string differs =
+      difference(first.system_toml, part.system_toml, keys_of_reports(first));
   if (!differs.empty()) refuse(differs);
   if (part.engine != first.engine || part.everywhere != first.everywhere)
     refuse(fmt::format("its engine is {}, not {}", part.engine, first.engine));
@@ -147,8 +148,8 @@ SumOfParts<Result> sum_of(const std::vector<std::string>& files, const Shard& sh
       static_cast<Stored<Result>&>(sum) = std::move(part);
       continue;
     }
-    // Of several ways to write a number that of the lowest trajectory: the order of the parts
-    // cannot matter.
+    // Of several ways to write a number, and of several windows, that of the lowest trajectory: the
+    // order of the parts cannot matter.
     if (lowest(part.result.done) < lowest(sum.result.done)) sum.system_toml = part.system_toml;
     if (!sum.result.add(part.result)) throw InternalError("parts overlap");
     if (sum.arithmetic.empty()) sum.arithmetic = part.arithmetic;

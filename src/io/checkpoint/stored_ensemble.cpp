@@ -69,8 +69,9 @@ Stored<Result> read_one(const std::string& name) {
   read_done(file.get(), name, result);
   result.complete = hdf5::read_integer_attribute(file.get(), "complete", name) == 1;
   result.threads = static_cast<int>(hdf5::read_integer_attribute(from, "threads", name));
-  result.seconds = hdf5::read_real_attribute(from, "seconds", name);
-  result.cpu_seconds = hdf5::read_real_attribute(from, "cpu_seconds", name);
+  const Seconds seconds = ArchiveFile::read_seconds(from, name);
+  result.seconds = seconds.wall;
+  result.cpu_seconds = seconds.cpu;
   const auto count = [&](const char* what) {
     return static_cast<std::uint64_t>(hdf5::read_integer_attribute(from, what, name));
   };
@@ -132,6 +133,11 @@ std::string shown(const io::Value* value) {
   }
 }
 
+// What is for readers: titles, which name changes that the other keys hold, and whose step it is.
+bool changes_nothing(const std::string& key) {
+  return key == "title" || key == "integrator.step_chosen";
+}
+
 std::string difference(const std::string& path, const io::Value& a, const io::Value& b,
                        const std::vector<std::string>& but) {
   const auto inner = [&](const std::string& key) { return path.empty() ? key : path + "." + key; };
@@ -145,8 +151,7 @@ std::string difference(const std::string& path, const io::Value& a, const io::Va
   };
   for (const io::Entry& entry : a.entries) {
     const io::Value* other = b.find(entry.key);
-    // Titles are for readers, and name changes that the other keys hold.
-    if (may_differ(entry.key) || inner(entry.key) == "title" ||
+    if (may_differ(entry.key) || changes_nothing(inner(entry.key)) ||
         (other != nullptr && same(entry.value, *other, entry.key)))
       continue;
     const bool tables = other != nullptr && entry.value.kind == io::Value::Kind::table &&
@@ -156,7 +161,8 @@ std::string difference(const std::string& path, const io::Value& a, const io::Va
     if (!within.empty()) return within;
   }
   for (const io::Entry& entry : b.entries)
-    if (!may_differ(entry.key) && a.find(entry.key) == nullptr)
+    if (!may_differ(entry.key) && !changes_nothing(inner(entry.key)) &&
+        a.find(entry.key) == nullptr)
       return say(inner(entry.key), nullptr, &entry.value);
   return {};
 }
@@ -168,6 +174,11 @@ std::string difference(const std::string& toml, const std::string& other_toml,
   const io::Value a = io::parse_document(toml, "system"),
                   b = io::parse_document(other_toml, "system");
   return difference("", a, b, but);
+}
+
+std::vector<std::string> keys_of_reports(const StoredEnsemble& stored) {
+  if (stored.kind == kind_of(LyapunovResult())) return {};
+  return {"run.window"};
 }
 
 bool io::are_one_ensemble(const StoredEnsemble& a, const StoredEnsemble& b) {

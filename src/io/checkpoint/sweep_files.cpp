@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -10,6 +12,7 @@
 #include <sstream>
 
 #include "carom/base/error.hpp"
+#include "io/archive/sums.hpp"
 #include "io/checkpoint/work_folder.hpp"
 
 namespace carom::io {
@@ -37,6 +40,40 @@ std::optional<std::string> text_of(const std::string& path) {
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();
+}
+
+[[noreturn]] void refuse(const std::string& name, const std::string& problem) {
+  throw InputError(Place{name, 0, 0, ""}, problem, "a sweep as carom wrote it");
+}
+
+// A text with its checksum, a line before it. `key` is what it belongs to, and goes into the sum.
+std::string summed(const std::string& text, const std::string& key) {
+  const std::uint32_t sum = hdf5::crc32(key.data(), key.size());
+  return fmt::format("{:08x}\n{}", hdf5::crc32(text.data(), text.size(), sum), text);
+}
+std::string checked(const std::string& name, const std::string& stored, const std::string& key) {
+  const std::size_t end = std::min(stored.find('\n'), stored.size());
+  std::string text = stored.substr(std::min(end + 1, stored.size()));
+  if (stored != summed(text, key)) refuse(name, "it was changed: its checksum is another");
+  return text;
+}
+
+// What the report of a value belongs to.
+std::string key_of(const SweepPlan& plan, std::size_t index) {
+  std::string key = fmt::format("{}\n{}\n", plan.command, index);
+  for (const auto& [option, text] : plan.options) key += fmt::format("{} {}\n", option, text);
+  return key + plan.systems.at(index);
+}
+
+// Of a value's archive, which belongs to its report: "none" where there is none.
+std::string sum_of_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return "none";
+  std::vector<char> some(std::size_t{1} << 20);
+  std::uint32_t sum = 0;
+  while (in.read(some.data(), static_cast<std::streamsize>(some.size())) || in.gcount() > 0)
+    sum = hdf5::crc32(some.data(), static_cast<std::size_t>(in.gcount()), sum);
+  return fmt::format("{:08x}", sum);
 }
 
 Json json_of(const std::vector<std::string>& texts) {
@@ -120,22 +157,40 @@ std::string value_of_sweep(const std::string& file, std::size_t index) {
 }
 
 void keep_plan(const std::string& file, const SweepPlan& plan) {
-  keep_text(plan_of(file), plan.json().text(), file);
+  keep_text(plan_of(file), summed(plan.json().text(), ""), file);
 }
 
 SweepPlan kept_plan(const std::string& file) {
   const std::string name = plan_of(file);
-  return SweepPlan::of(Json::parse(text_of(name).value_or(""), name), name);
+  return SweepPlan::of(Json::parse(checked(name, text_of(name).value_or(""), ""), name), name);
 }
 
 bool has_sweep(const std::string& file) { return has_work_folder(file) && exists(plan_of(file)); }
 
-void keep_report(const std::string& file, std::size_t index, const std::string& text) {
-  keep_text(report_of(file, index), text, file);
+void keep_report(const std::string& file, const SweepPlan& plan, std::size_t index,
+                 const std::string& text) {
+  const std::string with_sum =
+      fmt::format("archive {}\n{}", sum_of_file(value_of_sweep(file, index)), text);
+  keep_text(report_of(file, index), summed(with_sum, key_of(plan, index)), file);
 }
 
-std::optional<std::string> kept_report(const std::string& file, std::size_t index) {
-  return text_of(report_of(file, index));
+void remove_report(const std::string& file, std::size_t index) {
+  std::remove(report_of(file, index).c_str());
+}
+
+bool has_report(const std::string& file, std::size_t index) {
+  return exists(report_of(file, index));
+}
+
+std::optional<std::string> kept_report(const std::string& file, const SweepPlan& plan,
+                                       std::size_t index) {
+  const std::string name = report_of(file, index), archive = value_of_sweep(file, index);
+  const std::optional<std::string> stored = text_of(name);
+  if (!stored) return {};
+  const std::string text = checked(name, *stored, key_of(plan, index));
+  const std::string sum = fmt::format("archive {}\n", sum_of_file(archive));
+  if (!text.starts_with(sum)) refuse(archive, "it is missing or was changed");
+  return text.substr(sum.size());
 }
 
 void remove_sweep(const std::string& file) {

@@ -38,11 +38,20 @@ std::string value_of_sweep(const std::string& file, std::size_t index);
 /// For the process that holds the lock of FILE: keeps the plan, which makes the folder that of a
 /// sweep.
 void keep_plan(const std::string& file, const SweepPlan&);
+/// Throws InputError where it was changed.
 SweepPlan kept_plan(const std::string& file);
 /// Is FILE.part that of a sweep which has not ended?
 bool has_sweep(const std::string& file);
-void keep_report(const std::string& file, std::size_t index, const std::string& text);
-std::optional<std::string> kept_report(const std::string& file, std::size_t index);
+/// Keeps the report of a value whose archive, if it has one, is there: checksums of both tell that
+/// they belong to this value of this plan.
+void keep_report(const std::string& file, const SweepPlan&, std::size_t index,
+                 const std::string& text);
+void remove_report(const std::string& file, std::size_t index);
+bool has_report(const std::string& file, std::size_t index);
+/// Throws InputError where the report, or the archive beside it, was changed or belongs to another
+/// value.
+std::optional<std::string> kept_report(const std::string& file, const SweepPlan&,
+                                       std::size_t index);
 /// For the process that holds the lock of FILE: removes the plan first, then all values.
 void remove_sweep(const std::string& file);
 

@@ -187,6 +187,8 @@ const std::vector<KeyDescription>& key_table() {
       {"integrator", "", "step", "number", "",
        "time of a step; where forces act and none is given the program chooses one; the longest "
        "step of arkode and cvode"},
+      {"integrator", "", "step_chosen", "boolean", "",
+       "true: the program chose the step, as it writes into resolved systems"},
       {"integrator", "", "tolerance", "number", "",
        "of arkode and cvode, 1e-12 if not given: error of a step, relative to the state"},
       {"integrator", "", "unresolved", "string", "\"stop\"",

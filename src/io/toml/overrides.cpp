@@ -57,8 +57,11 @@ Value empty(Value::Kind kind, const Place& place) {
 
 // Removes the key of the file that the new key excludes.
 void drop_rival(Value& section, const std::string& key) {
-  static const std::pair<const char*, const char*> rivals[] = {
-      {"B", "larmor_radius"}, {"speed", "energy"}, {"radius", "radii"}, {"velocity", "angle"}};
+  static const std::pair<const char*, const char*> rivals[] = {{"B", "larmor_radius"},
+                                                               {"speed", "energy"},
+                                                               {"radius", "radii"},
+                                                               {"velocity", "angle"},
+                                                               {"step", "step_chosen"}};
   for (const auto& [one, other] : rivals) {
     if (key == one) section.erase(other);
     if (key == other) section.erase(one);

@@ -26,6 +26,8 @@ IntegratorPlan read_integrator(Value& root, bool forces, const std::vector<Parti
   if (const Value* step = section.find("step")) {
     plan.step = as_positive(*step);
     place = step->place;
+    const Value* const chosen = section.find("step_chosen");
+    plan.step_chosen = chosen != nullptr && as_flag(*chosen);
   }
   if (const Value* tolerance = section.find("tolerance")) {
     plan.tolerance = as_positive(*tolerance);

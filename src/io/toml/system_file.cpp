@@ -203,6 +203,7 @@ LoadedSystem read_system(std::string_view toml, const std::string& file,
     system.dynamics.integrator.step_chosen = true;
     io::TomlSection section(*root.find("integrator"), "integrator");
     section.fill("step", io::number_value(fmt::format("{}", step), section.place_of("step")));
+    section.fill("step_chosen", io::flag_value(true, section.place_of("step_chosen")));
   }
   check_number_of_steps(root, system);
   loaded.exact = io::read_exact(root, system.dynamics.forces->empty() && !system.of_discs());

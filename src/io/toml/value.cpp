@@ -133,6 +133,14 @@ Value text_value(std::string text, Place place) {
   return value;
 }
 
+Value flag_value(bool flag, Place place) {
+  Value value;
+  value.kind = Value::Kind::boolean;
+  value.flag = flag;
+  value.place = std::move(place);
+  return value;
+}
+
 std::string print_document(const Value& root) {
   std::string out;
   for (const Entry& entry : root.entries) {

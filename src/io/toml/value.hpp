@@ -37,6 +37,7 @@ std::string name_of(Value::Kind kind);
 
 Value number_value(std::string text, Place place);
 Value text_value(std::string text, Place place);
+Value flag_value(bool flag, Place place);
 
 /// Parses a TOML document; syntax errors are an InputError with line and column.
 Value parse_document(std::string_view toml, const std::string& file);
