@@ -5,7 +5,6 @@
 #include <cmath>
 #include <optional>
 
-#include "carom/analysis/drift.hpp"
 #include "carom/ensemble/start_measure.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
