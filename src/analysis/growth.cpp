@@ -340,7 +340,9 @@ void estimate_share(const GrowthSums& sums, LyapunovEstimate& out) {
   const double low = both(share - counted.low, out.hidden),
                high = both(counted.high - share, (most - hidden) / n);
   out.chaotic_share = {share, nan};
-  out.share_interval = {std::max(0.0, share - low), std::min(1.0, share + high)};
+  // All may be chaotic: exactly 1, not a rounding less.
+  const bool all = found + most >= n;
+  out.share_interval = {std::max(0.0, share - low), all ? 1.0 : std::min(1.0, share + high)};
   if (std::isfinite(low))
     out.chaotic_share.error =
         std::max(share - out.share_interval.low, out.share_interval.high - share) / normal_quantile;

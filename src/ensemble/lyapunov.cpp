@@ -116,8 +116,7 @@ std::string why_all_are_regular(const System& system) {
     return "all walls are straight";
   if (straight_flights && walls.size() == 1 && !system.table->lattice &&
       std::holds_alternative<geometry::Ellipse>(walls.front().curve))
-    return "between the hits of an ellipse the product of the angular momenta about its foci is "
-           "conserved";
+    return "energy and the product of the angular momenta about the foci are conserved";
   if ((!walls.empty() || !free) && is_round(*system.table, forces))
     return "energy and angular momentum are conserved";
   return {};
