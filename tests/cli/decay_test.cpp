@@ -38,15 +38,15 @@ TEST(Decay, OfTheStadiumHasNoPlateau) {
 
 TEST(Decay, OfAShortWindowIsALocalSlope) {
   const Shell shell;
-  const std::string wide = circle + "--window 20:200", narrow = circle + "--window 20:30";
+  const std::string wide = circle + "--window 100:300", narrow = circle + "--window 100:150";
   EXPECT_EQ(value(fit_of(shell(wide).out), "local_slope"), "false");
   EXPECT_EQ(value(fit_of(shell(narrow).out), "local_slope"), "true");
-  const std::string text = shell("$carom escape circle --trajectories 2e5 --window 20:30").out;
+  const std::string text = shell("$carom escape circle --trajectories 2e5 --window 100:150").out;
   EXPECT_NE(text.find("    local slope: a = "), std::string::npos) << text;
-  const std::string sweep =
-      shell(
-          "$carom escape circle --trajectories 2e5 --window 20:30 --sweep table.radius=list:1,1.1")
-          .out;
+  const std::string sweep = shell(
+                                "$carom escape circle --trajectories 2e5 --window 100:150 --sweep "
+                                "table.radius=list:1,1.1")
+                                .out;
   EXPECT_NE(sweep.find("power, local"), std::string::npos) << sweep;
   EXPECT_NE(sweep.find("  local: the slope in a window"), std::string::npos) << sweep;
 }
