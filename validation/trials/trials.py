@@ -1,0 +1,30 @@
+"""Helpers of the trials: run the program, intervals of shares, tables."""
+import json
+import math
+import subprocess
+
+program = "build/release/carom"
+
+
+def carom(args):
+    """The JSON object that `carom ARGS --json --quiet` prints; args is a list or one text."""
+    words = args.split() if isinstance(args, str) else list(args)
+    done = subprocess.run([program, *words, "--json", "--quiet"], capture_output=True, text=True, check=False)
+    if not done.stdout:
+        raise SystemExit(f"{program} {' '.join(words)}\n{done.stderr}")
+    return json.loads(done.stdout)
+
+
+def wilson(k, n, z=1.96):
+    """The interval of 95 % of a share of which k of n were seen."""
+    share, square = k / n, z * z / n
+    middle = (share + square / 2) / (1 + square)
+    half = z * math.sqrt(share * (1 - share) / n + square / (4 * n)) / (1 + square)
+    return middle - half, middle + half
+
+
+def table(rows):
+    """Prints rows of texts in columns; the first row is the head."""
+    widths = [max(len(str(cell)) for cell in column) for column in zip(*rows)]
+    for row in rows:
+        print("  ".join(str(cell).ljust(width) for cell, width in zip(row, widths)).rstrip(), flush=True)
