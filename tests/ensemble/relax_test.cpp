@@ -64,8 +64,8 @@ TEST(Relax, WignerMoleculesHaveTheirEnergiesAndModes) {
   }
 }
 
-// Shells of 4 and 9, or of 6 and 12 or 7 about one, turn against each other at frequencies of 1e-5
-// and less; charges inside a ring of charges likewise. Every search ends at a minimum all the same.
+// Shells of 4 and 9, or of 7 about one and 11, turn against each other at frequencies of 6e-4 and
+// 1e-4; charges inside a ring of charges likewise. Every search ends at a minimum all the same.
 TEST(Relax, SoftShellsAreFollowedToTheirMinima) {
   const RelaxResult thirteen = relaxed(wigner(13).system, 40);
   EXPECT_EQ(thirteen.without, 0u);
