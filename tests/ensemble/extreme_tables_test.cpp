@@ -76,7 +76,7 @@ const Family families[] = {
     {"small discs", [](Dice& d) { return square(1.0, 0.0, 0.0) + disc(0.5, 0.375, extreme(d)); }},
     {"discs that nearly touch",
      [](Dice& d) {
-       const double r = d.spread(1e-6, 0.2), gap = r * extreme(d), angle = d.between(0.0, 6.28);
+       const double r = d.spread(1e-6, 0.2), gap = 0.5 * extreme(d), angle = d.between(0.0, 6.28);
        return square(1.0, 0.0, 0.0) + disc(0.5, 0.5, r) +
               "[[table.obstacle]]\nshape = \"circle\"\ncenter = " +
               text(0.5 + (2.0 * r + gap) * std::cos(angle),
