@@ -134,7 +134,7 @@ Numbers first(std::uint64_t count) {
 
 TEST(OrderedOutput, EveryThreadLeavesWhicheverDeliveryFails) {
   for (const int threads : {1, 2, 3, 8})
-    for (const std::uint64_t window : {1, 3, 50}) {
+    for (const std::uint64_t window : {1u, 3u, 50u}) {
       EXPECT_EQ(written(threads, window, never, never), std::pair(first(blocks), std::string()));
       for (std::uint64_t k = 0; k < blocks; ++k)
         EXPECT_EQ(written(threads, window, k, never),
@@ -144,7 +144,7 @@ TEST(OrderedOutput, EveryThreadLeavesWhicheverDeliveryFails) {
 
 TEST(OrderedOutput, EveryThreadLeavesWhicheverBlockFails) {
   for (const int threads : {1, 2, 3, 8})
-    for (const std::uint64_t window : {1, 3, 50}) {
+    for (const std::uint64_t window : {1u, 3u, 50u}) {
       for (std::uint64_t k = 0; k < blocks; ++k) {
         const auto [seen, said] = written(threads, window, never, k);
         EXPECT_EQ(said, "this block");
