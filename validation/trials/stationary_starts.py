@@ -4,8 +4,8 @@
 1. Stadiums a = 1/2, 1, 2 (r = 1), closed, starts of each kind. The reference is an independent one: the map from hit to hit
    in NumPy from its own measure, and the flow's exponent is that per hit over the mean flight pi A/L (Abramov). Expected:
    |z| < 3.5 of both errors in all rows that are not doubted (some 20 rows; 3 would be exceeded by one in 18 runs by chance).
-2. How often a drift is doubted, over seeds: from one wall of the stadium a = 2 where the bias is 1, 2, 3, 6 of the errors
-   (expected: 95 % from 3 on), and without any drift, from a rectangle that holds all of the table (expected: 2 % at most).
+2. How often a drift is doubted, over seeds: from one wall of the stadium a = 2 where the bias is 1.5 to 11 of the errors
+   (expected: half at 3, 95 % from 4 on), and without any drift, from a rectangle that holds all of the table (expected: 2 %).
 3. Starts on all walls: the interval of 95 % over seeds (expected: 92 to 98 %).
 
     stationary_starts.py [--carom PATH] [--quick]
@@ -113,9 +113,9 @@ def power(quick):
     rows, out, runs = [["starts", "orbits", "t", "bias / errors", "doubted", "95 %", "expected"]], 0, 40 if quick else 200
     truth = 0.34397
     everything = 'initial={kind="rectangle", min=[-3, -1], max=[3, 1]}'
-    cases = [("bottom", ["--set", "initial.wall=bottom"], count, None if count < 500 else 0.95)
+    cases = [("bottom", ["--set", "initial.wall=bottom"], count, None if count < 200 else 0.5 if count < 500 else 0.95)
              for count in (64, 250, 1000 if not quick else 600, 4000 if not quick else 1500)]
-    cases.append(("a rectangle that is all", ["--set", everything], 1000 if not quick else 250, 0.02))
+    cases.append(("a rectangle that is all", ["--set", everything], 1000 if not quick else 250, 0.03))
     for name, options, count, expected in cases:
         seen, offs = 0, []
         for seed in range(1, runs + 1):
