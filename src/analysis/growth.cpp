@@ -288,6 +288,11 @@ void estimate_means(const GrowthSums& sums, LyapunovEstimate& out) {
                       errors[middle].error *
                           (1.0 + 1.5 / root(2.0 * static_cast<double>(errors[later].count - 1)));
   }
+  // Blocks in which deviations grow little are shorter than what these remember, and so short an
+  // orbit knows little of long stays.
+  constexpr double least_growth = 5.0;
+  if (growth < least_growth * static_cast<double>(GrowthSums::wanted_blocks))
+    out.long_enough = false;
   if (last.error > 0.0) out.per_hit.error *= error / last.error;
   out.per_time.error = error;
 }

@@ -87,7 +87,7 @@ TEST(GrowthSums, SaysWhenBlocksAreTooShort) {
   int said = 0, said_of_noise = 0;
   for (int round = 0; round < 200; ++round) {
     for (const bool remembers : {false, true}) {
-      GrowthSums sums({0.0, 64.0}, 1);
+      GrowthSums sums({0.0, 6400.0}, 1);
       ASSERT_EQ(sums.blocks(), GrowthSums::wanted_blocks);
       sums.add(orbit_of(dice, sums, remembers ? 0.95 : 0.0));
       (remembers ? said : said_of_noise) += !estimate_of(sums).long_enough;
@@ -103,7 +103,7 @@ TEST(GrowthSums, SaysWhenBlocksAreTooShort) {
 // or it is doubted.
 TEST(GrowthSums, KnowOrDoubtTheErrorOfAnOrbitThatSticks) {
   Dice dice(6);
-  constexpr double end = 6000.0, rate = 0.4;
+  constexpr double end = 6000.0, rate = 4.0;
   const GrowthSums plan({0.0, end}, 1);
   const double block = plan.block_length();
   const auto orbit = [&] {

@@ -63,7 +63,7 @@ TEST(Lyapunov, OfRegularTablesIsZero) {
     const std::string typed =
         "$carom lyapunov " + table + " --closed --trajectories 100 --t-max 50 ";
     const Outcome json = shell(typed + "--json");
-    EXPECT_EQ(json_value(json.out, "law"), "linear") << json.err;
+    EXPECT_EQ(json_value(json.out, "law"), "\"linear\"") << json.err;
     EXPECT_NE(json_value(json.out, "lambda").find("\"value\": 0"), std::string::npos);
     EXPECT_NE(shell(typed).out.find("lambda = 0: "), std::string::npos);
   }

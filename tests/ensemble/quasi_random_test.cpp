@@ -195,7 +195,10 @@ TEST(QuasiRandom, TheChaoticShareHasItsErrorFromReplicates) {
   const LyapunovResult result = run_lyapunov(system);
   const LyapunovEstimate e = estimate_of(result.growth);
   EXPECT_NEAR(e.chaotic_share.value, 1.0 - 0.2389084047, 4.0 * e.chaotic_share.error);
-  EXPECT_LT(e.chaotic_share.error, 0.5 * std::sqrt(0.24 * 0.76 / 4096));
+  // Most of it is what is not known of orbits that stick.
+  EXPECT_LT(e.chaotic_share.error, 0.65 * std::sqrt(0.24 * 0.76 / 4096));
+  EXPECT_LE(e.share_interval.low, 1.0 - 0.2389084047);
+  EXPECT_GE(e.share_interval.high, 1.0 - 0.2389084047);
   EXPECT_GT(e.per_time.error, 0.0);
   EXPECT_TRUE(e.block_errors.empty());
 }

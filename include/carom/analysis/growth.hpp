@@ -136,7 +136,9 @@ struct LyapunovEstimate {
     double error;
   };
   std::vector<BlockError> block_errors;
-  bool long_enough = true;  ///< false: the errors grow with the length of the blocks
+  /// False: the errors grow with the length of the blocks, or deviations grow little in the
+  /// shortest.
+  bool long_enough = true;
   /// Time after which an orbit of the chaotic sea is found chaotic; NaN where none was.
   double waiting_time = 0.0;
   bool tells_regular = false;  ///< may orbits whose growth is linear be called regular?

@@ -185,8 +185,8 @@ std::vector<std::string> notes_of(const System& system, const LyapunovResult& re
   }
   if (!e.long_enough)
     notes.push_back(
-        "the error grows with the length of the blocks, and is extrapolated from short ones to the "
-        "whole run: it may be too small, and takes longer runs or more trajectories");
+        "the error may be too small: it grows with the length of the blocks, or the run is short. "
+        "Take a longer one, or more trajectories");
   if (!of_repeller(result) && e.regular_bias > 0.5 * e.per_time.error)
     notes.push_back(fmt::format(
         "whether the orbits that have not shown chaos are regular is not known yet: if they are, "
