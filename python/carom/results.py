@@ -173,8 +173,8 @@ class Escape(Result):
     holes          (number of holes,): name, escaped, p, low, high (share, 95 % interval)
 
     fit, fit_hits: the likeliest decay at late times, and by number of hits. model, rate (1/time) or exponent, stderr, amplitude,
-    plateau, p_value, window (time), decided, alternatives; local_slope: the rate is that of the window, which is too short to show
-    a law; model is None where `reason` says why.
+    plateau, p_value, window (time), decided, alternatives; local_slope: the rate is that of the window, which does not
+    show a law by itself; model is None where `reason` says why.
     """
 
     _COLUMNS = {

@@ -353,7 +353,7 @@ std::string sweep_text(const SweepResult& result) {
     });
   };
   if (any("fit.local_slope", true))
-    text += "  local: the slope in a window that is too short to show a law\n";
+    text += "  local: the slope in a window that does not show a law by itself\n";
   if (any("fit.decided", false)) text += "  ?: the data do not tell this law from the next\n";
   if (const std::string why = reasons(result); !why.empty()) text += "\n" + why;
   text += fmt::format("\ncomputed in {:.3g} s\n", sum_of(result, "seconds"));
