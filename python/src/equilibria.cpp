@@ -46,7 +46,9 @@ void save(const RelaxOutcome& self, const std::string& file, bool force) {
 RelaxOutcome open_relax(const std::string& file) {
   StoredEquilibria stored = read_equilibria(file);
   auto loaded = std::make_shared<Loaded>();
-  loaded->loaded = read_system(stored.system_toml, file + ": /system");
+  SystemOverrides without_step;
+  without_step.choose_step = false;
+  loaded->loaded = read_system(stored.system_toml, file + ": /system", without_step);
   loaded->loaded.system.name = stored.system_name;
   loaded->options.command = "relax";
   return {std::move(loaded), std::move(stored.result)};

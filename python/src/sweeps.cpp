@@ -20,6 +20,13 @@ namespace carom::python {
 
 namespace {
 
+// A title needs no step.
+SystemOverrides without_step() {
+  SystemOverrides overrides;
+  overrides.choose_step = false;
+  return overrides;
+}
+
 using Keys = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
 struct SweepOutcome {
@@ -53,7 +60,7 @@ SweepOutcome make_sweep(const io::SweepPlan& plan,
   }
   result.status = reports.size() == plan.systems.size() ? "completed" : "interrupted";
   if (const auto error = cli::why_nothing(result)) throw *error;  // as the program
-  result.title = read_system(plan.system_toml, plan.system_name).system.title;
+  result.title = read_system(plan.system_toml, plan.system_name, without_step()).system.title;
   return made;
 }
 
@@ -63,7 +70,8 @@ SweepOutcome open_sweep(const std::string& file) {
   for (std::size_t i = 0; i < stored.reports.size(); ++i)
     if (!stored.reports[i].empty())
       opened.result.rows.emplace_back(i, io::Json::parse(stored.reports[i], file));
-  opened.result.title = read_system(stored.plan.system_toml, stored.plan.system_name).system.title;
+  opened.result.title =
+      read_system(stored.plan.system_toml, stored.plan.system_name, without_step()).system.title;
   return opened;
 }
 

@@ -158,10 +158,13 @@ void follow_links(Options& options) {
 }
 
 LoadedSystem load(const Options& options, const SystemOverrides& overrides) {
+  // Equilibria are found without any step.
+  SystemOverrides with = options.of_sweep ? SystemOverrides() : overrides;
+  with.choose_step = options.command != "relax";
   if (options.of_sweep)
-    return read_system(options.of_sweep->system_toml, options.of_sweep->system_name);
-  if (options.system_text) return read_system(*options.system_text, options.system, overrides);
-  return load_system(options.system, overrides);
+    return read_system(options.of_sweep->system_toml, options.of_sweep->system_name, with);
+  if (options.system_text) return read_system(*options.system_text, options.system, with);
+  return load_system(options.system, with);
 }
 
 LoadedSystem load_typed(const Options& options) { return load(options, options.overrides); }

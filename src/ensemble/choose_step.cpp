@@ -62,6 +62,7 @@ class Pilots {
  private:
   std::optional<double> follow(double h, double until) {
     system_.dynamics.integrator.step = h;
+    system_.dynamics.integrator.halve_unresolved = false;
     World world(*system_.table, system_.dynamics);
     Observer observer;
     double worst = 0.0;

@@ -98,6 +98,7 @@ void OneByOne::add_particles() {
 }
 
 void OneByOne::begin_deviations() {
+  in_parts_ = false;
   followed_.assign(trajectory_.starts.size(), {});
   for (std::size_t p = 0; p < followed_.size(); ++p)
     followed_[p].tangent.begin(trajectory_.starts[p], trajectory_.particles[p],
@@ -144,12 +145,28 @@ void OneByOne::carry_over_hit(std::size_t particle, const State& state) {
     return;
   }
   group->arrive(particle, state.time, *stopped_);
-  // The path of a chaotic group leaves that of the world by its rounding: it is brought back.
-  for (const std::size_t p : group->members())
-    if (const State other = world_.state(static_cast<int>(p)); other.time == state.time)
-      group->put(p, other);
+  put_back(*group, state.time);
   group->hit(particle, state);
   ++followed_[group->members().front()].hits;
+}
+
+/// The path of a chaotic group leaves that of the world by its rounding: it is brought back.
+void OneByOne::put_back(GroupTangent& group, const Time& time) {
+  for (const std::size_t p : group.members())
+    if (const State other = world_.state(static_cast<int>(p)); other.time == time)
+      group.put(p, other);
+}
+
+/// Deviations fly beside the world, with the plan's steps. Once these were halved they take the
+/// world's, along its path.
+void OneByOne::stepped(int particle, Time time, bool part) {
+  if (followed_.empty()) return;
+  in_parts_ = in_parts_ || part;
+  GroupTangent* const group = followed_[at(particle)].group;
+  if (!in_parts_ || !group) return;
+  stretch(at(particle), time, false);
+  group->arrive(at(particle), time, *stopped_);
+  put_back(*group, time);
 }
 
 void OneByOne::hit(const HitEvent& event) {

@@ -22,6 +22,7 @@ class OneByOne : public Engine, private Observer {
   void add_particles();
   void hit(const HitEvent&) override;
   void contact(const ContactEvent&) override;
+  void stepped(int particle, Time, bool part) override;
   void sample(int particle, Time, const State&) override;
   bool sampled(Time) override {
     ++samples_;
@@ -34,6 +35,7 @@ class OneByOne : public Engine, private Observer {
   /// The lengths of deviations at times before `time`, or also at it.
   void stretch(std::size_t particle, const Time& time, bool also_at);
   void carry_over_hit(std::size_t particle, const State&);
+  void put_back(GroupTangent&, const Time&);
 
   /// Deviations of a particle: across its orbit where it is free and alone; else those of its
   /// group, which are told of the group's first member.
@@ -54,6 +56,7 @@ class OneByOne : public Engine, private Observer {
   std::vector<std::unique_ptr<GroupTangent>> groups_;
   std::vector<Followed> followed_;  ///< one a particle, if deviations are followed
   const std::function<bool()>* stopped_ = nullptr;
+  bool in_parts_ = false;  ///< a step of this trajectory was halved: deviations take its steps
 };
 
 }  // namespace carom::ensemble

@@ -42,6 +42,8 @@ IntegratorPlan finer(IntegratorPlan plan) {
     plan.tolerance = std::max(least_tolerance,
                               (plan.tolerance > 0.0 ? plan.tolerance : default_tolerance) / 64.0);
   plan.step *= 0.5;
+  // Where one run halves its steps the other one takes half of what is left of them.
+  if (plan.halve_unresolved) plan.resolution_margin *= 2.0;
   return plan;
 }
 

@@ -41,6 +41,22 @@ TEST(RelaxCommand, RefusesWhatHasNoEquilibria) {
   EXPECT_EQ(shell("$carom escape stadium --saddles").status, 2);
 }
 
+/// Nothing moves: no step is chosen, and no energy is needed.
+TEST(RelaxCommand, NeedsNeitherAStepNorAnEnergy) {
+  const Shell shell;
+  const Outcome low = shell("$carom relax wigner --set particles.energy=0.1 --starts 5 --json");
+  EXPECT_EQ(low.status, 0) << low.err;
+  EXPECT_EQ(json_value(low.out, "without"), "0");
+  shell(
+      "printf '[[potential]]\\nkind = \"harmonic\"\\n[interaction]\\nkind = \"coulomb\"\\n"
+      "[particles]\\ncount = 3\\nenergy = 0.01\\n[initial]\\nkind = \"rectangle\"\\nmin = [-1, "
+      "-1]\\n"
+      "max = [1, 1]\\n' > low.toml");
+  const Outcome chosen = shell("$carom relax ./low.toml --starts 5 --json -o low.h5");
+  EXPECT_EQ(chosen.status, 0) << chosen.err;
+  EXPECT_EQ(json_value(chosen.out, "without"), "0");
+}
+
 TEST(RelaxCommand, TellsOfWallsAndSaddles) {
   const Shell shell;
   const Outcome wall =

@@ -16,6 +16,9 @@ class Observer {
   /// All samples of this time are given. False: the observer was interrupted over them. The run
   /// ends there as interrupted, and when it goes on it gives the samples of this time again.
   virtual bool sampled(Time) { return true; }
+  /// A step has ended of a group that `particle` belongs to, not at a hit; `part`: a part of a
+  /// step that was halved.
+  virtual void stepped(int /*particle*/, Time, bool /*part*/) {}
   virtual void end(const EndEvent&) {}  ///< once, of a particle that has ended
   /// A crossing of the surface that is watched: the state there with its position in the plane
   /// (cell 0), and the direction, +1 or -1. Those of a flight come after the event that ends it.

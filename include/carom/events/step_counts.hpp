@@ -14,6 +14,8 @@ struct StepCounts {
   std::uint64_t unresolved =
       0;  ///< steps longer than the forces they swept allow (unresolved = "count")
   double first_unresolved = 0.0;  ///< time at which the earliest of them began; 0 if there is none
+  std::uint64_t halved = 0;  ///< of `steps`: parts of steps that were halved (unresolved = "halve")
+  double shortest_part = 0.0;  ///< the plan's step over a power of two, of the shortest; 0: none
 
   StepCounts& operator+=(const StepCounts& o) {
     if (o.unresolved > 0)
@@ -22,6 +24,9 @@ struct StepCounts {
     steps += o.steps;
     force_evaluations += o.force_evaluations;
     unresolved += o.unresolved;
+    if (o.halved > 0)
+      shortest_part = halved > 0 ? std::min(shortest_part, o.shortest_part) : o.shortest_part;
+    halved += o.halved;
     return *this;
   }
 };

@@ -15,6 +15,11 @@ struct IntegratorPlan {
   double tolerance = 0.0;  ///< > 0: relative tolerance of an adaptive scheme; 0: not given
   bool count_unresolved =
       false;  ///< unresolved = "count": steps that do not resolve a force are counted, not fatal
+  /// unresolved = "halve": a step that fails is taken in parts, each half as long as the one that
+  /// failed, or a quarter, ...
+  bool halve_unresolved = false;
+  /// Where steps are halved, they must resolve the forces as if they were so many times as long.
+  double resolution_margin = 1.0;
   double energy_tolerance =
       1e-3;  ///< largest change of the energy over the largest kinetic energy that is accepted
   bool step_chosen = false;  ///< the step is not of the file: ensemble/choose_step.hpp found it

@@ -6,8 +6,20 @@
 
 namespace carom::cli {
 
+namespace {
+
+// What is written of a sweep needs no step.
+SystemOverrides without_step() {
+  SystemOverrides overrides;
+  overrides.choose_step = false;
+  return overrides;
+}
+
+}  // namespace
+
 void print_sweep(const Options& options, SweepResult& result, const std::string& file) {
-  const System base = read_system(result.plan.system_toml, result.plan.system_name).system;
+  const System base =
+      read_system(result.plan.system_toml, result.plan.system_name, without_step()).system;
   result.title = base.title.empty() ? base.name : base.title;
   result.archive = named_archive(options, file);
   print_report(
@@ -16,8 +28,8 @@ void print_sweep(const Options& options, SweepResult& result, const std::string&
 
 void keep_sweep(const Options& options, const SweepResult& result, const std::string& file,
                 const std::vector<Origin>& before) {
-  LoadedSystem base = read_system(result.plan.system_toml, result.plan.system_name);
-  choose_engine(options.engine, base.system);
+  LoadedSystem base = read_system(result.plan.system_toml, result.plan.system_name, without_step());
+  if (options.command != "relax") choose_engine(options.engine, base.system);
   Provenance origin = provenance_of(options, base.system, threads_of(options));
   origin.before = before;
   io::write_sweep(file, base, result.plan, sweep_numbers(result), origin, result.status,

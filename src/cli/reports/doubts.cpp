@@ -190,7 +190,11 @@ void add_steps(Json& json, const System& system, const StepCounts& steps) {
   json.set("step", plan.step > 0.0 ? Json(plan.step) : Json());
   if (plan.step_chosen) json.set("step_chosen", true);
   json.set("steps", steps.steps).set("force_evaluations", steps.force_evaluations);
-  if (!system.dynamics.integrator.count_unresolved) return;
+  if (plan.halve_unresolved) {
+    json.set("halved_steps", steps.halved);
+    json.set("shortest_step", steps.halved > 0 ? Json(steps.shortest_part) : Json());
+  }
+  if (!plan.count_unresolved) return;
   json.set("unresolved_steps", steps.unresolved);
   json.set("first_unresolved", steps.unresolved > 0 ? Json(steps.first_unresolved) : Json());
 }
@@ -201,6 +205,9 @@ std::string steps_text(const System& system, const StepCounts& steps) {
   std::string text = counted(steps.steps, "step");
   if (plan.step > 0.0)
     text += fmt::format(" of {}{}", plan.step, plan.step_chosen ? " (chosen)" : "");
+  if (steps.halved > 0)
+    text += fmt::format(", {} of them of {:.3g} or more, as longer ones do not resolve the forces",
+                        grouped(steps.halved), steps.shortest_part);
   text += ", " + counted(steps.force_evaluations, "force evaluation");
   if (system.dynamics.integrator.count_unresolved)
     text += steps.unresolved == 0

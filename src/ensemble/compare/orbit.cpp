@@ -117,6 +117,7 @@ Dynamics Runs::by(const std::string& scheme, double step, double tolerance) cons
   dynamics.everywhere = dynamics.everywhere || free();
   dynamics.integrator.scheme = scheme;
   dynamics.integrator.step = step;
+  dynamics.integrator.halve_unresolved = false;
   dynamics.integrator.tolerance = tolerance;
   return dynamics;
 }

@@ -69,7 +69,7 @@ double Group::way_to_hit(double rest) {
     if (!(c.about < first)) break;
     first = std::min(first, refined_hit(c.member, *c.barrier, c.about, a));
   }
-  return std::min(rest, first + margin * in_.plan.step);
+  return std::min(rest, first + margin * part_);
 }
 
 /// When that member crosses the barrier, by Runge and Kutta's steps of order 4 of it alone.
@@ -103,7 +103,7 @@ double Group::refined_hit(std::size_t member, const Barrier<double>& barrier, do
     const double late = barrier.gap(there) / barrier.rate(there, velocity);
     t -= late;
     if (!(t > 0.0)) return about;
-    if (std::fabs(late) < 0.25 * margin * in_.plan.step) break;
+    if (std::fabs(late) < 0.25 * margin * part_) break;
   }
   return t;
 }

@@ -129,7 +129,7 @@ double Group::energy_jumps() const {
 
 /// The time at which the step that begins now ends.
 Time Group::step_end(const Time& limit) const {
-  return in_.plan.step > 0.0 ? std::min(limit, next_multiple(time_, in_.plan.step)) : limit;
+  return part_ > 0.0 ? std::min(limit, next_multiple(time_, part_)) : limit;
 }
 
 void Group::drop_prediction() {
@@ -159,6 +159,42 @@ const Group::Next& Group::predict(const Time& limit) {
 }
 
 void Group::find_next(const Time& limit) {
+  const Barrier<double>* const passed = passed_;
+  part_ = in_.plan.step;
+  describes_ = !in_.plan.halve_unresolved;
+  find_within(limit);
+  if (in_.plan.halve_unresolved && !next_.fault.empty()) halve(limit, passed);
+}
+
+/// A step fails: the longest part of it that does not. If all fail, the whole one does. `passed`:
+/// the edge that the step starts on.
+void Group::halve(const Time& limit, const Barrier<double>* passed) {
+  constexpr int most_halvings = 40;
+  const Time whole_end = step_end(limit);
+  for (int k = 1; k <= most_halvings && !interrupted(0.0); ++k) {
+    part_ = std::ldexp(in_.plan.step, -k);
+    if (too_late(time_, part_)) break;
+    // A part that its start forbids need not be tried.
+    const double rest = step_end(limit) - time_;
+    if (!maps_.empty() &&
+        !resolves(phase_, nullptr,
+                  forces::resolution::span_of(resolution_radius(rest), largest_omega_)))
+      continue;
+    next_ = {};
+    passed_ = passed;
+    find_within(limit);
+    if (!next_.fault.empty()) continue;
+    next_.in_parts = next_.member < 0 && whole_step_ && path_end_ < whole_end;
+    return;
+  }
+  part_ = in_.plan.step;
+  describes_ = true;
+  next_ = {};
+  passed_ = passed;
+  find_within(limit);
+}
+
+void Group::find_within(const Time& limit) {
   path_end_ = step_end(limit);
   const double rest = std::clamp(path_end_ - time_, 0.0, std::numeric_limits<double>::max());
   const double way = way_to_hit(rest);
@@ -276,6 +312,7 @@ void Group::advance() {
   if (in_.counts) {
     StepCounts taken{.steps = 1};
     if (next_.unresolved) taken = {.steps = 1, .unresolved = 1, .first_unresolved = time_.value()};
+    if (part_ < in_.plan.step) taken = {.steps = 1, .halved = 1, .shortest_part = part_};
     *in_.counts += taken;
   }
   phase_ = next_.member < 0 ? path_->end().phase : path_->at(next_.duration).phase;

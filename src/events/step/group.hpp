@@ -30,7 +30,9 @@ namespace carom::events {
 
 /// Steps end at the multiples of the plan's step: where a step ends depends on the clock alone, not
 /// on what happened before. An event within a step ends it there, and the rest of it is a step of
-/// its own.
+/// its own. Where the plan lets steps be halved, one that fails is taken in parts, which end at the
+/// multiples of its half, quarter, ...: the longest part that does not fail. After each part the
+/// rest of the step is tried as a whole again, so that the state and the clock alone choose parts.
 class Group final : public ForceLaw<double> {
  public:
   /// What the group lives in; shared by all groups of a world, which it must outlive.
@@ -59,6 +61,7 @@ class Group final : public ForceLaw<double> {
     bool slides = false;      ///< it cannot be told from motion along that wall
     std::string fault;        ///< why there is no path that walls can be found on; "": there is
     int outside = -1;  ///< then: this member alone has left the table; -1: it is the fault of all
+    bool in_parts = false;  ///< it ends a part of a step alone, and the step goes on
   };
 
   explicit Group(const Surroundings& in) : in_(in) {}
@@ -154,6 +157,8 @@ class Group final : public ForceLaw<double> {
   std::string check_resolution();
   std::string describe_unresolved(const Phase<double>& at, double step, double radius);
   void find_next(const Time& limit);
+  void find_within(const Time& limit);
+  void halve(const Time& limit, const Barrier<double>* passed);
   double way_to_hit(double rest);
   double refined_hit(std::size_t member, const Barrier<double>&, double about,
                      std::span<const geometry::Vector> acceleration) const;
@@ -166,6 +171,9 @@ class Group final : public ForceLaw<double> {
   double longest_step(const Phase<double>& from, const double& asked) const override;
   void make_stepper();
   Time step_end(const Time& limit) const;
+  double resolution_radius(double step) const {
+    return in_.plan.resolution_margin * step / forces::resolution::steps_a_radius;
+  }
   /// A member that may come to a barrier within the step.
   struct Near {
     std::size_t member;
@@ -208,8 +216,10 @@ class Group final : public ForceLaw<double> {
     Phase<double> phase;
   } between_;
   std::uint64_t began_at_ = 0, under_way_ = 0;  ///< evaluations of the forces
-  bool whole_step_ = false;                     ///< the path under way ends at path_end_
-  Time path_end_;                               ///< of the step
+  bool whole_step_ = false;  ///< the path under way ends at path_end_
+  Time path_end_;            ///< of the step
+  double part_ = 0.0;        ///< ends of steps are its multiples: the plan's step, or a part of it
+  bool describes_ = true;    ///< a fault is told in words
   std::unique_ptr<Stepper<double>> stepper_;
   std::unique_ptr<StepPath<double>> path_;
   std::vector<forces::ForceMap*> maps_;  ///< one a member

@@ -217,7 +217,7 @@ std::string Group::check_resolution() {
   if (!(step > 0.0)) return {};
   if (is_adaptive(in_.plan.scheme))
     return {};  // these ask for the longest step before they take it
-  const double radius = step / forces::resolution::steps_a_radius;
+  const double radius = resolution_radius(step);
   if (span_.time != radius) {
     span_ = forces::resolution::span_of(radius, largest_omega_);
     checked_.position.clear();
@@ -231,7 +231,8 @@ std::string Group::check_resolution() {
 }
 
 std::string Group::describe_unresolved(const Phase<double>& at, double step, double radius) {
-  if (in_.plan.count_unresolved) return "not resolved";  // it is counted, and not told
+  // What is counted, or halved, is not told.
+  if (in_.plan.count_unresolved || !describes_) return "not resolved";
   const double shorter = step / radius * longest_step(at, radius);
   // The member that is to blame, where particles do not interact.
   std::size_t member = 0;

@@ -118,7 +118,7 @@ void Groups::predict_again() {
 void Groups::advance(Group& group) {
   group.advance();
   if (surroundings_.remember_energy) energies_.after_step(group);
-  if (group.next().member < 0)
+  if (group.next().member < 0 && !group.next().in_parts)
     for (std::size_t k = 0; k < group.bodies().size(); ++k) group.fold(k);
 }
 

@@ -188,7 +188,13 @@ void Integration::step(Group& group, Observer& observer) {
   if (watch_.active()) watch_.watch_step(group, group.next_time(), observer);
   groups_.advance(group);
   const int member = group.next().member;
-  if (member < 0) return looking_.push_back({&group, -1, group.time(), true});
+  if (member < 0) {
+    const bool part = group.next().in_parts;
+    observer.stepped(group.bodies().front(), group.time(), part);
+    // Others are met at the ends of whole steps, which groups have in common.
+    if (part) return groups_.predict(group);
+    return looking_.push_back({&group, -1, group.time(), true});
+  }
   const Barrier<double>& barrier = *group.next().barrier;
   if (!regions_.is_edge(barrier.wall)) {
     hit(group, static_cast<std::size_t>(member), barrier, observer);

@@ -71,10 +71,17 @@ struct RealNumber {
   const char* name;
   double& value;
   Description description;
+  bool later = false;  ///< as of StepNumber
 };
 std::vector<RealNumber> reals_of(StepCounts& steps, EnergyError& energy) {
   return {
-      {first_unresolved, steps.first_unresolved, {"time", "When the earliest of these began"}},
+      {first_unresolved,
+       steps.first_unresolved,
+       {"time", "When the earliest step that was counted as unresolved began"}},
+      {shortest_part,
+       steps.shortest_part,
+       {"time", "The shortest part of a step that was halved; 0: none"},
+       true},
       {"energy_error_end",
        energy.end,
        {"1", "Largest change of an energy until the end, relative to the largest kinetic energy"}},
@@ -95,12 +102,17 @@ void write_integration(hid_t fates, StepCounts steps, EnergyError energy, const 
 void read_integration(hid_t fates, const std::string& name, StepCounts& steps,
                       EnergyError& energy) {
   if (!hdf5::has(fates, step_numbers[0].name)) return;
+  const auto is_there = [&](const auto& number) {
+    return !number.later || hdf5::has(fates, number.name);
+  };
   for (const StepNumber& number : step_numbers)
-    steps.*number.value =
-        read_number<std::uint64_t>(fates, number.name, fmt::format("/fates/{}", number.name), name);
+    if (is_there(number))
+      steps.*number.value = read_number<std::uint64_t>(fates, number.name,
+                                                       fmt::format("/fates/{}", number.name), name);
   for (const RealNumber& number : reals_of(steps, energy))
-    number.value =
-        read_number<double>(fates, number.name, fmt::format("/fates/{}", number.name), name);
+    if (is_there(number))
+      number.value =
+          read_number<double>(fates, number.name, fmt::format("/fates/{}", number.name), name);
 }
 
 }  // namespace carom::io

@@ -250,7 +250,10 @@ void RunArchive::Implementation::create_steps() {
   };
   for (const StepNumber& number : step_numbers)
     create(number.name, H5T_NATIVE_UINT64, {"1", number.text});
-  create(first_unresolved, H5T_NATIVE_DOUBLE, {"time", "When the earliest of these began"});
+  create(first_unresolved, H5T_NATIVE_DOUBLE,
+         {"time", "When the earliest step that was counted as unresolved began"});
+  create(shortest_part, H5T_NATIVE_DOUBLE,
+         {"time", "The shortest part of a step that was halved; 0: none"});
   create(going_on, H5T_NATIVE_UINT64,
          {"1",
           "Evaluations from which a run that goes on counts: but those for states within the "
@@ -264,7 +267,7 @@ void RunArchive::Implementation::write_steps(const StepCounts& steps,
   if (!hdf5::has(file.id(), "steps")) return;
   const Handle group = file.open_group("steps");
   const auto write = [&](const char* name, hid_t type, const void* value) {
-    if (!hdf5::has(group.get(), name)) return;  // an earlier build began the archive
+    if (!hdf5::has(group.get(), name)) return;  // an earlier version began the archive
     Handle dataset = hdf5::checked(H5Dopen2(group.get(), name, H5P_DEFAULT), H5Dclose, file.name());
     hdf5::check(H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0,
                 file.name());
@@ -273,6 +276,7 @@ void RunArchive::Implementation::write_steps(const StepCounts& steps,
   for (const StepNumber& number : step_numbers)
     write(number.name, H5T_NATIVE_UINT64, &(steps.*number.value));
   write(first_unresolved, H5T_NATIVE_DOUBLE, &steps.first_unresolved);
+  write(shortest_part, H5T_NATIVE_DOUBLE, &steps.shortest_part);
   const std::uint64_t are_predicted = evaluations.predicted;
   write(going_on, H5T_NATIVE_UINT64, &evaluations.count);
   write(predicted, H5T_NATIVE_UINT64, &are_predicted);

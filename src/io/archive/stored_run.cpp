@@ -115,8 +115,11 @@ StoredRun read_run(const std::string& name) {
   if (hdf5::has(file.get(), "steps")) {
     const Handle steps(H5Gopen2(file.get(), "steps", H5P_DEFAULT), H5Gclose);
     for (const StepNumber& number : step_numbers)
-      run.steps.*number.value =
-          hdf5::read_column<std::uint64_t>(steps.get(), number.name, name).at(0);
+      if (!number.later || hdf5::has(steps.get(), number.name))
+        run.steps.*number.value =
+            hdf5::read_column<std::uint64_t>(steps.get(), number.name, name).at(0);
+    if (hdf5::has(steps.get(), shortest_part))
+      run.steps.shortest_part = hdf5::read_column<double>(steps.get(), shortest_part, name).at(0);
     run.evaluations.count = run.steps.force_evaluations;
     if (hdf5::has(steps.get(), going_on)) {
       run.evaluations.count = hdf5::read_column<std::uint64_t>(steps.get(), going_on, name).at(0);

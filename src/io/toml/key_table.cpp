@@ -191,10 +191,11 @@ const std::vector<KeyDescription>& key_table() {
        "true: the program chose the step, as it writes into resolved systems"},
       {"integrator", "", "tolerance", "number", "",
        "of arkode and cvode, 1e-12 if not given: error of a step, relative to the state"},
-      {"integrator", "", "unresolved", "string", "\"stop\"",
+      {"integrator", "", "unresolved", "string", "",
        "what becomes of a step that does not resolve the forces it sweeps: stop ends the "
        "trajectory as unresolved, count counts "
-       "the step and goes on"},
+       "the step and goes on, halve takes it in parts, halved until they do; halve where the "
+       "program chooses the step, else stop"},
       {"integrator", "", "energy_tolerance", "number", "1e-3",
        "largest change of the energy, relative to the largest kinetic energy, that a result may "
        "have; beyond it the report says so "

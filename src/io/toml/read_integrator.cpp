@@ -37,12 +37,19 @@ IntegratorPlan read_integrator(Value& root, bool forces, const std::vector<Parti
     section.fill("tolerance", number_value("1e-12", section.place_of("tolerance")));
   }
   plan.energy_tolerance = as_positive(section.get("energy_tolerance"));
-  const Value& unresolved = section.get("unresolved");
-  plan.count_unresolved = as_text(unresolved) == "count";
-  if (!plan.count_unresolved && as_text(unresolved) != "stop")
-    throw InputError(unresolved.place,
-                     "unknown treatment of unresolved steps '" + unresolved.text + "'",
-                     "\"stop\" or \"count\"", nearest_name(unresolved.text, {"stop", "count"}));
+  // A step of the user's is taken as it is; the program's own is a first guess.
+  const bool fixed = forces && !is_adaptive(plan.scheme);
+  const char* const fallback = fixed && !(plan.step > 0.0) ? "halve" : "stop";
+  if (!section.has("unresolved"))
+    section.fill("unresolved", text_value(fallback, section.place_of("unresolved")));
+  const Value& unresolved = *section.find("unresolved");
+  const std::string treatment = as_text(unresolved);
+  plan.count_unresolved = treatment == "count";
+  plan.halve_unresolved = fixed && treatment == "halve";
+  if (treatment != "count" && treatment != "halve" && treatment != "stop")
+    throw InputError(unresolved.place, "unknown treatment of unresolved steps '" + treatment + "'",
+                     "\"stop\", \"count\" or \"halve\"",
+                     nearest_name(treatment, {"stop", "count", "halve"}));
   place.key = "integrator";  // the checks add the key at fault
   if (forces || plan.tolerance > 0.0) check_plan(plan, place);
   if (forces) {

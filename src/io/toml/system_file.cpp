@@ -197,7 +197,7 @@ LoadedSystem read_system(std::string_view toml, const std::string& file,
   if (!radii.empty()) refuse_injections(system, "a system of hard discs");
   system.section = io::read_section(root, *table);
   system.table = std::move(table);
-  if (needs_step(system)) {
+  if (overrides.choose_step && needs_step(system)) {
     const double step = choose_step(system).step;
     system.dynamics.integrator.step = step;
     system.dynamics.integrator.step_chosen = true;

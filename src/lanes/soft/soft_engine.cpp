@@ -276,6 +276,10 @@ SoftEngine::Outcome SoftEngine::follow(SoftTrack& track, bool from_lane, double 
     emit_while([&](const Time& t) { return over || t < when; });
     if (over) return count(Outcome::over);
     group_.advance();
+    if (next.in_parts) {
+      s = group_.state(0);
+      continue;
+    }
     if (next.member < 0) return count(end_step(track));
     if (hit(track, *next.barrier)) return count(Outcome::ended);
     if (!(s.time < end)) return count(Outcome::on_a_wall);
