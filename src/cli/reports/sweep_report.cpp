@@ -214,7 +214,8 @@ struct Reason {
 std::vector<Reason> reasons_of(const SweepResult& result) {
   std::vector<Reason> all;
   for (const SweepRow& row : result.rows)
-    for (const char* path : {"reason", "fit.reason", "no_errors", "no_share"}) {
+    for (const char* path : {"reason", "fit.reason", "no_errors", "no_share", "note"}) {
+      if (path == std::string("note") && !row.doubts().empty()) continue;  // they say more
       const Json* found = row.report.find(path);
       const std::string text = found ? found->string().value_or("") : "";
       if (text.empty()) continue;
