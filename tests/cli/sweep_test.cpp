@@ -242,7 +242,7 @@ TEST(Sweep, ChecksWhatItGoesOnWith) {
           "value-1.report: it was changed");
 }
 
-// What a run alone warns of stands in each row, also when the sweep is shown again.
+// What a run alone warns of stands in each row, and in the text.
 TEST(Sweep, KeepsTheDoubtsOfSplitting) {
   const Shell shell;
   const std::string command =
@@ -251,12 +251,12 @@ TEST(Sweep, KeepsTheDoubtsOfSplitting) {
   const Outcome alone = shell(command + "--json");
   EXPECT_NE(alone.err.find(doubt), std::string::npos) << alone.err;
   EXPECT_NE(json_value(alone.out, "note").find(doubt), std::string::npos) << alone.out;
-  const Outcome swept = shell(command + "--sweep run.seed=list:1,2 -o a.h5 --json");
+  const Outcome swept = shell(command + "--sweep run.seed=list:1,2 --json");
   EXPECT_EQ(swept.status, alone.status) << swept.err;
   ASSERT_EQ(rows_of(swept.out).size(), 2u);
   for (const std::string& row : rows_of(swept.out))
     EXPECT_NE(row.find(doubt), std::string::npos) << row;
-  const Outcome shown = shell("$carom escape --resume a.h5");
+  const Outcome shown = shell(command + "--sweep run.seed=list:1,2");
   EXPECT_EQ(shown.status, swept.status);
   EXPECT_NE(on_one_line(shown.out).find(doubt), std::string::npos) << shown.out << shown.err;
 }
