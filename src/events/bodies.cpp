@@ -24,6 +24,7 @@ void Bodies::end(int i, Fate fate, Time time, Observer& observer, std::string_vi
   Body& b = (*this)[i];
   b.fate = fate;
   b.finished = true;
+  b.ended = time;
   queue_.remove(i);
   if (fate == Fate::lost || fate == Fate::singular || fate == Fate::unresolved)
     b.report = report_of(b.particle, b.state, fate, why);

@@ -33,6 +33,7 @@ struct Body {
   int hole = -1;
   Fate fate = Fate::survived;
   bool finished = false;
+  Time ended;              ///< when, once it is finished
   Group* group = nullptr;  ///< it holds the particle's state; null: free
   std::size_t member = 0;  ///< its number in that group
   Time last_event;         ///< integrated: its last hit or start

@@ -226,11 +226,10 @@ State World::state(int p) const {
   return implementation_->bodies.state(p);
 }
 State World::state_at(int p, Time t) const {
-  const auto& body = implementation_->bodies.at(p);
+  const Body& body = implementation_->bodies.at(p);
   // Pinned particles go round for ever; the others move no more, wherever a flight would lead.
-  const bool ended = body.finished && body.fate != Fate::pinned;
-  if (const State last = state(p); ended && last.time < t) return last;
-  return implementation_->groups.state_at(p, t);
+  const bool over = body.finished && body.fate != Fate::pinned && body.ended < t;
+  return implementation_->groups.state_at(p, over ? body.ended : t);
 }
 const Particle& World::particle(int p) const { return implementation_->bodies.at(p).particle; }
 std::uint64_t World::hits(int p) const { return implementation_->bodies.at(p).hits; }

@@ -59,11 +59,9 @@ TEST(World, OneThatHasEndedStaysWhereItEnded) {
   world.add(particle(), start({0.375, 0.5}, {0.0, -1.0}));
   world.run_until(3.0, seen);
   ASSERT_EQ(world.fate(0), Fate::escaped);
-  const State end = world.state(0), later = world.state_at(0, 100.0);
+  const State later = world.state_at(0, 100.0);
   EXPECT_EQ(later.position, Vector(0.375, 0.0));
   EXPECT_EQ(later.time.value(), 0.5);
-  EXPECT_EQ(later.position, end.position);
-  EXPECT_EQ(later.velocity, end.velocity);
 }
 
 TEST(World, TurnsBackInARightAngle) {

@@ -103,7 +103,8 @@ std::string read_one_system(const std::string& text) {
                       read_system(again, "once more").resolved_toml == again;
     return same ? "read" : "changed the resolved system reads as another";
   } catch (const InputError& error) {
-    if (error.place().file == "fuzz.toml" && !error.problem().empty()) return "refused";
+    const bool placed = error.place().file == "fuzz.toml" || !error.place().key.empty();
+    if (placed && !error.problem().empty()) return "refused";
     return "place " + first_line(error.what());
   }
 }

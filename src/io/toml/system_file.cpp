@@ -49,11 +49,11 @@ void complete_sections(Value& root) {
   Value title = io::text_value("", {root.place.file, 0, 0, "title"});
   ordered.set("title", root.find("title") != nullptr ? *root.find("title") : title);
   for (const std::string& name : known_sections) {
-    const Value* written = root.find(name);
+    Value* written = root.find(name);
     if (written == nullptr && contains(optional_sections, name)) continue;
     Value empty;
     empty.place = {root.place.file, 0, 0, name};
-    ordered.set(name, written != nullptr ? *written : empty);
+    ordered.set(name, std::move(written != nullptr ? *written : empty));  // millions of values
   }
   root = std::move(ordered);
 }

@@ -65,6 +65,7 @@ class Converter {
       value.entries = entries(*table, path);
     } else if (const auto* list = node.as_array()) {
       value.kind = Value::Kind::list;
+      value.items.reserve(list->size());  // of a million, growing would take as much again
       for (std::size_t k = 0; k < list->size(); ++k) {
         value.items.push_back(convert((*list)[k], path + "[" + std::to_string(k) + "]"));
       }
