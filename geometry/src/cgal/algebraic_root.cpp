@@ -9,6 +9,7 @@
 #include <CGAL/CORE_BigInt.h>
 
 #include <iterator>
+#include <mutex>
 #include <utility>
 
 namespace carom::geometry {
@@ -18,6 +19,13 @@ namespace {
 using Kernel = CGAL::Algebraic_kernel_d_1<CORE::BigInt>;
 using IntegerPolynomial = Kernel::Polynomial_1;
 using CommonFactor = CGAL::Polynomial_traits_d<IntegerPolynomial>::Gcd_up_to_constant_factor;
+
+/// CGAL's numbers (CORE) take their precision from variables of the whole process, which it changes
+/// and sets back on the way: another thread at the same time would get other digits.
+std::unique_lock<std::mutex> alone() {
+  static std::mutex mutex;
+  return std::unique_lock(mutex);
+}
 
 const Kernel& kernel() {
   static const Kernel instance;
@@ -47,6 +55,7 @@ struct AlgebraicRoot::Data {
 };
 
 std::vector<RealRoot> real_roots(const Polynomial& polynomial) {
+  const auto turn = alone();
   const IntegerPolynomial p = integer_polynomial(polynomial);
   std::vector<RealRoot> result;
   if (p.degree() < 1) return result;
@@ -74,15 +83,18 @@ std::vector<AlgebraicRoot> rising_roots(const Polynomial& polynomial) {
 }
 
 int compare(const AlgebraicRoot& a, const AlgebraicRoot& b) {
+  const auto turn = alone();
   return static_cast<int>(kernel().compare_1_object()(a.data().value, b.data().value));
 }
 
 int compare(const AlgebraicRoot& a, const mpq_class& b) {
+  const auto turn = alone();
   const Kernel::Bound bound(big(b.get_num()), big(b.get_den()));
   return static_cast<int>(kernel().compare_1_object()(a.data().value, bound));
 }
 
 int sign_at(const Polynomial& polynomial, const AlgebraicRoot& root) {
+  const auto turn = alone();
   // The kernel's own Sign_at_1 (5.5.1) fails when its refinement happens to hit a rational root
   // exactly: its interval is then a point, which its next step does not allow.
   const IntegerPolynomial p = integer_polynomial(polynomial);
@@ -104,6 +116,9 @@ int sign_at(const Polynomial& polynomial, const AlgebraicRoot& root) {
   return static_cast<int>(p.sign_at(value.low()));
 }
 
-double approximate(const AlgebraicRoot& root) { return CGAL::to_double(root.data().value); }
+double approximate(const AlgebraicRoot& root) {
+  const auto turn = alone();
+  return CGAL::to_double(root.data().value);
+}
 
 }  // namespace carom::geometry
