@@ -376,7 +376,7 @@ std::string result_text(const System& system, const LyapunovResult& result,
   std::string text =
       doubts_of(system, result).folded_text() +
       head_text(system, result.trajectories, sums.window().to, result.complete, context) +
-      drawn_text(system);
+      drawn_text(system, result);
   if (const std::string reason = no_exponent(system, result, e); !reason.empty()) {
     text += folded("\nThere is no exponent: " + reason + ".") + '\n';
   } else if (of_repeller(result)) {

@@ -24,6 +24,11 @@ std::string drawn_in_place(const System& system) {
   return text;
 }
 
+// Archives of older versions, which keep no drift, hold orbits from the walls.
+bool were_drawn(const System& system, const LyapunovResult& result) {
+  return starts_of_the_map(system) && result.drift.orbits > 0;
+}
+
 Json starts_json(const System& system) {
   const std::string why = why_not_stationary(system);
   Json json = Json::object().set("stationary", why.empty());
@@ -63,8 +68,9 @@ void add_starts(Json& json, const System& system) { json.set("starts", starts_js
 
 void add_starts(Json& json, const System& system, const LyapunovResult& result,
                 const LyapunovEstimate& e) {
-  Json starts = starts_json(with_starts_of_the_flow(system));
-  if (starts_of_the_map(system)) starts.set("drawn", drawn_in_place(system));
+  const bool other = were_drawn(system, result);
+  Json starts = starts_json(other ? with_starts_of_the_flow(system) : system);
+  if (other) starts.set("drawn", drawn_in_place(system));
   json.set("starts", std::move(starts));
   json.set("drift", drift_json(drift_of_window(result, result.drift, e.per_time)));
   if (result.spectrum.counted())
@@ -72,8 +78,8 @@ void add_starts(Json& json, const System& system, const LyapunovResult& result,
              drift_json(drift_of_window(result, result.entropy_drift, entropy_of(result))));
 }
 
-std::string drawn_text(const System& system) {
-  return starts_of_the_map(system)
+std::string drawn_text(const System& system, const LyapunovResult& result) {
+  return were_drawn(system, result)
              ? folded(fmt::format("starts: {}", drawn_in_place(system))) + '\n'
              : "";
 }

@@ -13,8 +13,8 @@ namespace carom::cli {
 void add_starts(io::Json&, const System&);
 /// The same of exponents, for which starts of the map are drawn from the flow's measure; `drift`.
 void add_starts(io::Json&, const System&, const LyapunovResult&, const LyapunovEstimate&);
-/// What was drawn in place of starts of the map; "" where nothing was.
-std::string drawn_text(const System&);
+/// What was drawn in place of starts of the map; "" where nothing was, as in older archives.
+std::string drawn_text(const System&, const LyapunovResult&);
 /// Particles that would not have started on a wall, and do not count.
 std::uint64_t uncounted(const System&, const LyapunovResult&);
 /// Doubts about exponents that remember their starts, as phrases.
