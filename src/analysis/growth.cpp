@@ -396,6 +396,7 @@ void estimate_law(const GrowthSums& sums, bool regular, LyapunovEstimate& out) {
   if (regular) {
     out.law = Law::linear;
     out.tells_regular = true;
+    out.long_enough = true;
     out.per_time = {0.0, 0.0};
     if (std::isfinite(out.per_hit.value)) out.per_hit = {0.0, 0.0};
     out.chaotic_share = {0.0, 0.0};
@@ -404,6 +405,7 @@ void estimate_law(const GrowthSums& sums, bool regular, LyapunovEstimate& out) {
   }
   if (t.chaotic == 0 && slow) {
     out.law = flights >= least_flights ? Law::linear : Law::unknown;
+    out.long_enough = true;
     out.per_time = out.per_hit = {nan, nan};
     if (out.law == Law::unknown) return;
     out.tells_regular = true;
