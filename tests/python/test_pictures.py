@@ -176,6 +176,13 @@ def test_the_decay_is_drawn_in_its_window():
     assert inside.sum() > 3 and numpy.allclose(fitted[inside], p[inside], rtol=0.1)
 
 
+def test_a_decay_in_a_short_window_is_a_local_slope():
+    result = carom.escape("stadium", trajectories=100_000, t_max=500, window=(100, 150))
+    assert result.fit.local_slope
+    line = carom.plot.survival(result).get_lines()[-1]
+    assert line.get_label().startswith("local slope, exponential: κ = ")
+
+
 def test_no_decay_is_drawn_where_the_data_tell_none():
     result = carom.escape("circle", trajectories=1000, collisions=5)
     assert result.fit.model is None and "cap on hits" in result.fit.reason

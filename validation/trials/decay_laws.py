@@ -5,8 +5,7 @@
    or exponent, amplitude and plateau hold in 92 to 98 %.
 2. Ensembles of 2e4, 2e5 and 2e6 particles drawn from the survival curve of one large run of the program each: stadiums with half
    lengths 2 and 1, a stadium with two holes, and the circle, until several times. All decay as 1/t. Expected: a plateau is decided
-   in 3 % or less; where an exponent is printed that is not called a local slope, its interval holds 1 in 92 % or more. (Few are:
-   what the errors allow for makes them hold in more than 98 % in windows that nothing precedes.)
+   in 3 % or less; where an exponent is printed that is not called a local slope, its interval holds 1 in 92 % or more of all together.
 3. The same of a mushroom, whose share that stays is known. Expected: a plateau is found in half of the ensembles or more, and the
    interval of a decided one holds in 92 % or more.
 4. The program itself, stadium and circle, 2e4 trajectories with 40 seeds. Expected as of 2.
