@@ -149,7 +149,9 @@ TEST(ThinWalls, SmallDiscsAreHitWhereTheFlightLeads) {
       EXPECT_EQ(world.fate(i), Fate::capped) << world.report(i);
       EXPECT_EQ(witness.from_behind, 0) << r;
       EXPECT_LT(witness.sideways, largest_shift(table, 3.0, r)) << r;
-      if (is_thin(table)) EXPECT_LT(witness.late, 64.0 * u * 3.0) << r;
+      if (is_thin(table)) {
+        EXPECT_LT(witness.late, 64.0 * u * 3.0) << r;
+      }
       hits_of_all += witness.hits;
     }
   }

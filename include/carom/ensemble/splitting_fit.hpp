@@ -19,8 +19,8 @@ struct SplitDecay {
   double amplitude = 0.0, amplitude_error = 0.0;
   bool local = false;  ///< the slope in this window, which is too short to show a law
   /// How likely the rates before and after some report within differ by as much, if the law holds
-  /// (Student's t, paired by repetitions; the least p-value times the number of reports within); NaN
-  /// with less than three reports.
+  /// (Student's t, paired by repetitions; the least p-value times the number of reports within);
+  /// NaN with less than three reports.
   double p_value = 0.0;
   /// Logarithm of the likelihood of that difference at the window's middle; 0 where it is NaN.
   double evidence = 0.0;

@@ -293,12 +293,13 @@ std::string regularity_text(const GrowthSums& sums, const LyapunovEstimate& e) {
                         e.share_interval.low, e.share_interval.high);
   else
     text += "chaotic share 0\n";
-  std::string orbits = fmt::format("{} {} chaotic, {} regular, {} undecided",
+  std::string orbits = fmt::format("{} {} chaotic, {} {}, {} undecided",
                                    counted(t.chaotic, "orbit"), t.chaotic == 1 ? "is" : "are",
-                                   grouped(regular), grouped(t.orbits - t.chaotic - regular));
+                                   grouped(regular), e.hidden > 0.0 ? "regular so far" : "regular",
+                                   grouped(t.orbits - t.chaotic - regular));
   if (e.hidden > 0.0)
     orbits += fmt::format(
-        "; the share counts {:.2g} more, of orbits that have not left the islands yet", e.hidden);
+        "; the share counts {:.2g} more, of orbits that stick and will show later", e.hidden);
   text += folded(orbits) + '\n';
   if (std::isfinite(e.chaotic.value) && t.chaotic < t.orbits)
     text += fmt::format("lambda of the chaotic orbits = {}\n",

@@ -216,10 +216,10 @@ class Group final : public ForceLaw<double> {
     Phase<double> phase;
   } between_;
   std::uint64_t began_at_ = 0, under_way_ = 0;  ///< evaluations of the forces
-  bool whole_step_ = false;  ///< the path under way ends at path_end_
-  Time path_end_;            ///< of the step
-  double part_ = 0.0;        ///< ends of steps are its multiples: the plan's step, or a part of it
-  bool describes_ = true;    ///< a fault is told in words
+  bool whole_step_ = false;                     ///< the path under way ends at path_end_
+  Time path_end_;                               ///< of the step
+  double part_ = 0.0;      ///< ends of steps are its multiples: the plan's step, or a part of it
+  bool describes_ = true;  ///< a fault is told in words
   std::unique_ptr<Stepper<double>> stepper_;
   std::unique_ptr<StepPath<double>> path_;
   std::vector<forces::ForceMap*> maps_;  ///< one a member
