@@ -130,6 +130,7 @@ class Result(OfSystem):
     def __init__(self, outcome, system):
         super().__init__(outcome, system)
         self._archive = None  # that it was read from: its name, or its bytes
+        self._folder = None  # that holds the archive as long as rows are read from it
 
     def save(self, path, force: bool = False) -> None:
         """Writes the archive that the program writes with -o; `force` replaces one."""

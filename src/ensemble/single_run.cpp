@@ -219,6 +219,7 @@ class SingleRun {
 
   void begin_energies() {
     const std::vector<State> starts = starts_of_all();
+    starts_known_ = !starts.empty();
     at_start_ = energies_of(
         [&](std::size_t body) { return starts.empty() ? state(body) : starts[number(body)]; });
     free_.emplace(all_, shared_);
@@ -235,11 +236,16 @@ class SingleRun {
       passed_on_->watch(&*free_);
   }
   /// Where the stored run began; none where that is not known, or not needed.
-  std::vector<State> starts_of_all() const {
+  std::vector<State> starts_of_all() {
     std::vector<State> starts;
     if (!goes_on_ || !options_.trajectory || !(integrated_ || shared_)) return starts;
     World drawn(*system_.table, system_.dynamics, options_.decisions);
-    add_starts(drawn, sampler_, *options_.trajectory);
+    try {
+      add_starts(drawn, sampler_, *options_.trajectory);
+    } catch (const SamplingStopped&) {  // the run ends where it began, and is as before
+      was_interrupted_ = true;
+      return starts;
+    }
     for (int p = 0; p < drawn.size(); ++p) starts.push_back(drawn.state(p));
     return starts;
   }
@@ -342,7 +348,7 @@ class SingleRun {
     for (std::size_t body = 0; body < numbers_.size(); ++body) {
       const std::size_t p = number(body);
       if (shared_ ? all_are_there && !summing_.stopped() : integrated_) {
-        const bool from_here = goes_on_ && !options_.trajectory;  // at_start_ is of this part alone
+        const bool from_here = goes_on_ && !starts_known_;  // at_start_ is of this part alone
         const double before = from_here ? options_.resume[p].energy.change : 0.0;
         const double change = at_end[body].total() - at_start_[body].total();
         errors[p] = progress_[p].energy.error_at_end(before + change, at_end[body].kinetic);
@@ -414,6 +420,7 @@ class SingleRun {
   const bool integrated_, shared_, goes_on_, without_end_;
   const Sampler sampler_{system_, options_.interrupted};
   bool was_interrupted_ = false;
+  bool starts_known_ = false;         ///< of a run that goes on, where they are needed
   std::uint64_t counted_before_ = 0;  ///< evaluations
   bool taken_up_ = true;              ///< false: interrupted before the run went on
   const std::function<bool()> interrupted_ = [this] {

@@ -227,8 +227,10 @@ State World::state(int p) const {
 }
 State World::state_at(int p, Time t) const {
   const Body& body = implementation_->bodies.at(p);
-  // Pinned particles go round for ever; the others move no more, wherever a flight would lead.
-  const bool over = body.finished && body.fate != Fate::pinned && body.ended < t;
+  // Pinned particles go round for ever, and those that no wall follows fly on; the others move no
+  // more, wherever a flight would lead.
+  const bool goes_on = body.fate == Fate::pinned || body.fate == Fate::unbounded;
+  const bool over = body.finished && !goes_on && body.ended < t;
   return implementation_->groups.state_at(p, over ? body.ended : t);
 }
 const Particle& World::particle(int p) const { return implementation_->bodies.at(p).particle; }

@@ -23,7 +23,7 @@ TEST(Fates, AddUpInEveryCommand) {
   const std::pair<const char*, std::uint64_t> commands[] = {
       {"escape stadium --trajectories 100", 100},
       {"diffusion stadium --trajectories 100", 100},
-      {"lyapunov stadium --trajectories 100 --window 0:1", 100},
+      {"lyapunov stadium --trajectories 100 --window 0:6", 100},
       {"section stadium --orbits 100 --points 9", 100},
       {"section stadium --orbits 50 --points 9 --set particles.count=2", 100}};
   for (const auto& [command, all] : commands) {

@@ -207,7 +207,7 @@ TEST(Lyapunov, DoubtsAndRefusesCoarseSteps) {
   const Outcome doubted = shell(coarse + "50");
   EXPECT_EQ(doubted.status, 3);
   EXPECT_NE(json_value(doubted.out, "energy_error"), "");
-  expect_refused(shell(coarse + "140"), "integrator.step: ");
+  expect_refused(shell(coarse + "300"), "integrator.step: ");
 }
 
 // Repeated they would scatter by nothing at all.

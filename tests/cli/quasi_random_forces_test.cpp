@@ -67,7 +67,8 @@ TEST(QuasiRandomUnderForces, HasTheMeanOfRandomStarts) {
   };
   const auto found = [&](const std::string& options) {
     const std::string lambda = json_value(
-        shell("$carom lyapunov ./hill.toml --closed --trajectories 1000 --json --quiet " + options)
+        shell("$carom lyapunov ./hill.toml --closed --trajectories 320 --t-max 20 --json --quiet " +
+              options)
             .out,
         "lambda");
     const auto number = [&](const std::string& key) {

@@ -203,7 +203,8 @@ class Kept : public LyapunovJournal {
 TEST(Lyapunov, RecordsAddUpToTheResult) {
   const System system =
       make_system("[table]\n" + std::string(mushroom) +
-                  "\n[initial]\nkind = \"boundary\"\n[run]\nt_max = 500\ntrajectories = 100\n");
+                  "\n[initial]\nkind = \"boundary\"\nwall = \"cap\"\n[run]\nt_max = 500\n"
+                  "trajectories = 100\n");
   Kept kept;
   LyapunovOptions how;
   how.threads = 2;

@@ -83,7 +83,7 @@ class World {
   bool finished(int particle) const;           ///< has ended
   Fate fate(int particle) const;               ///< survived while it has not ended
   State state(int particle) const;             ///< after its last event
-  State state_at(int particle, Time t) const;  ///< from its last event on; ended: of its end
+  State state_at(int particle, Time t) const;  ///< from its last event on; after its end: there
   const Particle& particle(int particle) const;
   std::uint64_t hits(int particle) const;
   int last_wall(int particle) const;  ///< -1 before the first hit
