@@ -258,9 +258,10 @@ class System:
 def load(path) -> System:
     """A system file (TOML)."""
     path = path_of(path)
-    text = _carom.read_text(path)
+    written = _carom.read_text(path)
+    text: str | bytes = written
     try:
-        text = text.decode()
+        text = written.decode()
     except UnicodeDecodeError:  # where it is no text is told by what reads it
         pass
     return System(text, path)._checked()
