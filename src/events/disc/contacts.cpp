@@ -112,9 +112,9 @@ void Contacts::first_contact(int i, int j, const Time& now, const Time& until) {
   const Vector p = lattice_->translation(along_), q = lattice_->translation(beyond_);
   const double p2 = dot(p, p), width = std::sqrt(p2), area = geometry::cross(p, q);
   const double nearest_reach = 1.01 * (a.radius + b.radius + way);
-  // How many rows and places in a row, with room, and so what is rounded in the sums of multiples
-  // of the vectors as they are written: three units of each multiple, and of d eight of what it is
-  // made of.
+  // How many rows and places in a row at most, and from that what is rounded in the sums of
+  // multiples of the vectors as they are written: three units of each multiple, and of d eight of
+  // what it is made of.
   const auto spread = [this](const Cell& c) {
     return std::fabs(static_cast<double>(c.first)) * norm_1(lattice_->first) +
            std::fabs(static_cast<double>(c.second)) * norm_1(lattice_->second);
