@@ -120,7 +120,8 @@ PreparedCurve::Frame PreparedCurve::frame_at(double u) const {
 /// it if the domain lies inside. How far along the line x was found does not matter: it is
 /// the distance of the line from the centre that tells, so a hit lies on the side that the particle
 /// comes from. A line that misses the circle by rounding touches it.
-void PreparedCurve::arrive_by_line(Vector x, Vector v, Arrival& a) const {
+PreparedCurve::Arrival PreparedCurve::arrival_by_line(Vector x, Vector v) const {
+  Arrival a;
   const CurveFrame& f = parametrisation;
   const Vector e = x - f.origin;
   const Vector at{f.start + dot(f.along, e), dot(f.across, e)};
@@ -138,6 +139,7 @@ void PreparedCurve::arrive_by_line(Vector x, Vector v, Arrival& a) const {
   circle.last = f.last;
   a.u = conic_parameter(circle, on, first_parameter);
   reflect_by(frame_at(a.u), v, a);
+  return a;
 }
 
 }  // namespace carom::geometry

@@ -95,7 +95,7 @@ struct PreparedCurve {
       else if (landing == LandingKind::ellipse)
         arrive_on_ellipse(x, v, a);
       else
-        return arrive_by_line(x, v, a);
+        return void(a = arrival_by_line(x, v));
       a.u = conic_parameter(parametrisation, a.point, first_parameter);
     }
     if (!(a.u > first_parameter && a.u < last())) [[unlikely]]
@@ -115,7 +115,7 @@ struct PreparedCurve {
     const Vector d = x - centre;
     const double step = step_of_length(weight * d, d);
     if (!(std::fabs(step) < longest_step)) [[unlikely]]
-      return arrive_by_line(x, v, a);
+      return void(a = arrival_by_line(x, v));
     const Vector on = moved(x, step, d);
     a.point.x = on.x;
     a.point.y = on.y;
@@ -129,12 +129,13 @@ struct PreparedCurve {
     const Vector e = x - centre;
     const OnEllipse<double> on = on_ellipse(e, first_axis, second_axis);
     if (!(std::fabs(on.step) < longest_step)) [[unlikely]]
-      return arrive_by_line(x, v, a);
+      return void(a = arrival_by_line(x, v));
     reflect_by(settled_on_ellipse(x, e, on), v, a);
   }
   /// On a curve that is thin, or much smaller than the distance that was flown: rounding leaves the
-  /// point farther off than one step mends.
-  void arrive_by_line(Vector x, Vector v, Arrival& a) const;
+  /// point farther off than one step mends. By value: an arrival whose address is given away lives
+  /// in memory, and hits wait for it.
+  Arrival arrival_by_line(Vector x, Vector v) const;
   [[gnu::always_inline]] static void reflect_by(const Frame& f, Vector v, Arrival& a) {
     set(a, f);
     a.factor = reflection_factor(v, f.normal, f.square, f.k);
