@@ -34,15 +34,4 @@ void FateCounts::count(Fate fate) {
   }
 }
 
-void FateCounts::add_fates(const FateCounts& other) {
-  survived += other.survived;
-  pinned += other.pinned;
-  capped += other.capped;
-  escaped += other.escaped;
-  singular += other.singular;
-  unbounded += other.unbounded;
-  unresolved += other.unresolved;
-  lost += other.lost;
-}
-
 }  // namespace carom

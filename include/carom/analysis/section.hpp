@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "carom/base/fields.hpp"
 #include "carom/events/event.hpp"
 #include "carom/events/surface.hpp"
 #include "carom/geometry/curve_frame.hpp"
@@ -31,6 +32,26 @@ struct SectionPoint {
   std::int32_t direction = 0;  ///< +1 or -1: sense of the crossing; 0 at the boundary
   double t = 0, s = 0, v_parallel = 0;
   double x = 0, y = 0, vx = 0, vy = 0;  ///< unwrapped; after the hit at the boundary
+};
+
+template <>
+struct Fields<SectionPoint> {
+  using P = SectionPoint;
+  static constexpr std::tuple list{
+      field("orbit", "1", "Index of the trajectory", &P::orbit),
+      field("index", "1", "Number of the point in the orbit of its particle, from 0", &P::index),
+      field("particle", "1", "Index of the particle", &P::particle),
+      field("wall", "1", "Index into the attribute `names`, -1: not at a wall", &P::wall),
+      field("direction", "1", "Sense of the crossing, 1 or -1; 0 at a wall", &P::direction),
+      field("t", "time", "Time", &P::t),
+      field("s", "length",
+            "Length along the wall, line or circle; 0 for conditions on the velocity", &P::s),
+      field("v_parallel", "length/time", "Velocity in the direction of s; 0 likewise",
+            &P::v_parallel),
+      field("x", "length", "Position, unwrapped", &P::x),
+      field("y", "length", "Position, unwrapped", &P::y),
+      field("vx", "length/time", "Velocity, after the hit at a wall", &P::vx),
+      field("vy", "length/time", "Velocity, after the hit at a wall", &P::vy)};
 };
 
 /// Where the arc lengths of a table's walls begin.

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "carom/base/fields.hpp"
 #include "carom/ensemble/trajectory_ranges.hpp"
 #include "carom/events/decisions.hpp"
 #include "carom/events/energy.hpp"
@@ -39,6 +40,39 @@ struct TrajectoryRecord {
   /// Of exponents, else NaN: that of the time of which it is known, and SALI at its end.
   double lambda = std::numeric_limits<double>::quiet_NaN(),
          sali = std::numeric_limits<double>::quiet_NaN();
+};
+
+template <>
+struct Fields<TrajectoryRecord> {
+  using R = TrajectoryRecord;
+  static constexpr std::tuple list{
+      field("index", "1",
+            "trajectory * particles + particle; with injections trajectory * 2^20 + particle",
+            &R::index),
+      field("x", "length", "Start, unwrapped", &R::x),
+      field("y", "length", "Start, unwrapped", &R::y),
+      field("vx", "length/time", "Velocity at the start", &R::vx),
+      field("vy", "length/time", "Velocity at the start", &R::vy),
+      field("fate", "1", "Index into the attribute `names`", &R::fate),
+      field("hole", "1", "Index into the attribute `names`, -1: did not escape", &R::hole),
+      field("t", "time", "End: escape, last hit of an unbounded one, else the time reached",
+            &R::time),
+      field("hits", "1", "Reflections", &R::hits),
+      later(field("wall", "1", "Of the start, -1: it lies off the walls", &R::wall)),
+      later(field("s", "length", "Start: arc length along its wall, NaN: off walls", &R::s)),
+      later(field("v_parallel", "length/time", "Start: velocity along its wall, NaN: off walls",
+                  &R::v_parallel))};
+};
+/// Of exponents, too.
+struct ExponentFields {
+  using R = TrajectoryRecord;
+  static constexpr auto list = std::tuple_cat(
+      Fields<R>::list,
+      std::tuple{
+          later(field("lambda", "1/time",
+                      "Finite-time exponent, NaN: ended before it was looked at", &R::lambda)),
+          later(field("sali", "1", "Angle between two deviations (SALI)", &R::sali)),
+          later(field("regularity", "1", "Index into the attribute `names`", &R::regularity))});
 };
 
 /// Besides what a kind of ensemble adds up.

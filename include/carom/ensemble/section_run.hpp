@@ -47,6 +47,18 @@ struct SectionResult : FateCounts {
       reports;  ///< of the first few particles that failed: index and report
 };
 
+template <>
+struct Fields<SectionResult> {
+  using R = SectionResult;
+  static constexpr std::tuple list{
+      field("orbits", "1", "Trajectories followed to their end", &R::orbits),
+      field("points", "1", "Points of all orbits", &R::points),
+      field("collisions", "1", "Reflections of all orbits", &R::collisions),
+      field("incomplete", "1", "Particles with fewer points than asked for", &R::incomplete),
+      field("digest", "1", "Sum of a hash of each orbit's points: equal digests, equal bits",
+            &R::digest)};
+};
+
 /// How many trajectories System::section stands for.
 std::uint64_t section_orbits(const System&);
 

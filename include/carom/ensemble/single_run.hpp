@@ -36,6 +36,70 @@ struct ParticleProgress {
   EnergyBalance energy;
 };
 
+/// What a run goes on from.
+template <>
+struct Fields<ParticleProgress> {
+  using P = ParticleProgress;
+  using Whole = std::int64_t;
+  static constexpr std::tuple list{
+      field_as<Whole>(
+          "wall", "1", "Wall of the last event, -1: off the walls",
+          [](auto& p) -> auto& { return p.state.wall; }),
+      field_as<double>(
+          "u", "1", "Exact parameter on that wall", [](auto& p) -> auto& { return p.state.u; }),
+      field_as<double>(
+          "x", "length", "Position in the cell",
+          [](auto& p) -> auto& { return p.state.position.x; }),
+      field_as<double>(
+          "y", "length", "Position in the cell",
+          [](auto& p) -> auto& { return p.state.position.y; }),
+      field_as<double>(
+          "vx", "length/time", "Velocity", [](auto& p) -> auto& { return p.state.velocity.x; }),
+      field_as<double>(
+          "vy", "length/time", "Velocity", [](auto& p) -> auto& { return p.state.velocity.y; }),
+      later(field("speed", "length/time",
+                  "What reflections keep; the velocity may differ from it by rounding", &P::speed)),
+      field_as<Whole>(
+          "cell_first", "1", "Cell of the lattice",
+          [](auto& p) -> auto& { return p.state.cell.first; }),
+      field_as<Whole>(
+          "cell_second", "1", "Cell of the lattice",
+          [](auto& p) -> auto& { return p.state.cell.second; }),
+      field_as<double>(
+          "t_high", "time", "Time of the last event, leading double",
+          [](auto& p) -> auto& { return p.state.time.high; }),
+      field_as<double>(
+          "t_low", "time", "Time of the last event, trailing double",
+          [](auto& p) -> auto& { return p.state.time.low; }),
+      field_as<double>(
+          "end_high", "time", "Time of the end, leading double",
+          [](auto& p) -> auto& { return p.end.high; }),
+      field_as<double>(
+          "end_low", "time", "Time of the end, trailing double",
+          [](auto& p) -> auto& { return p.end.low; }),
+      field_as<Whole>("hits", "1", "Reflections so far", &P::hits),
+      field_as<Whole>("contacts", "1", "Contacts with other hard discs so far", &P::contacts),
+      field_as<Whole>("last_wall", "1", "Wall of the last reflection, -1: none", &P::last_wall),
+      field_as<Whole>("hole", "1", "Hole it escaped through, -1: none", &P::hole),
+      later(field_as<double>(
+          "energy_change", "energy", "Change of the energy since the start",
+          [](auto& p) -> auto& { return p.energy.change; })),
+      later(field_as<double>(
+          "energy_largest", "energy", "Largest change that was seen",
+          [](auto& p) -> auto& { return p.energy.largest; })),
+      later(field_as<double>(
+          "energy_kinetic", "energy", "Largest kinetic energy that was seen",
+          [](auto& p) -> auto& { return p.energy.kinetic; })),
+      later(field_as<double>(
+          "energy_change_low", "energy", "What a double does not hold of energy_change",
+          [](auto& p) -> auto& { return p.energy.change_low; })),
+      later(field_as<double>(
+          "energy_last", "energy",
+          "Energy after the latest step, of all that it is integrated with; NaN: not known",
+          [](auto& p) -> auto& { return p.energy.last; })),
+      field_as<Whole>("fate", "1", "Index into the attribute `names`", &P::fate)};
+};
+
 /// A particle at the end of a run, as people want to see it.
 struct RunEnd {
   ParticleProgress progress;
@@ -52,6 +116,19 @@ struct RunEnd {
 struct Evaluations {
   std::uint64_t count = 0;
   bool predicted = false;  ///< those of the steps under way are among them
+};
+
+template <>
+struct Fields<Evaluations> {
+  static constexpr std::tuple list{
+      later(field("evaluations_going_on", "1",
+                  "Evaluations from which a run that goes on counts: but those for states within "
+                  "the steps under way",
+                  &Evaluations::count)),
+      later(field_as<std::uint64_t>(
+          "predicted", "1",
+          "1: those of the steps under way are among them; 0: an interrupt dropped them",
+          &Evaluations::predicted))};
 };
 
 /// How to run one trajectory, and from where to go on.

@@ -4,6 +4,7 @@
 #include <limits>
 #include <span>
 
+#include "carom/base/fields.hpp"
 #include "carom/events/dynamics.hpp"
 #include "carom/table/table.hpp"
 
@@ -25,6 +26,16 @@ struct EnergyError {
   double largest = 0.0;  ///< the largest seen, without its sign
   /// Adds other trajectories: keeps the largest of each error, without a sign.
   EnergyError& operator+=(const EnergyError&);
+};
+
+template <>
+struct Fields<EnergyError> {
+  static constexpr std::tuple list{
+      field("energy_error.end", "1",
+            "Largest change of an energy until the end, relative to the largest kinetic energy",
+            &EnergyError::end),
+      field("energy_error.largest", "1", "Largest change of an energy that was seen, likewise",
+            &EnergyError::largest)};
 };
 
 /// What is seen of the energy of a particle under forces, or of all particles together where they

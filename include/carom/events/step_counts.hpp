@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "carom/base/fields.hpp"
+
 namespace carom {
 
 /// Counts of integrated motion; parts of an ensemble are added.
@@ -29,6 +31,22 @@ struct StepCounts {
     halved += o.halved;
     return *this;
   }
+};
+
+template <>
+struct Fields<StepCounts> {
+  using S = StepCounts;
+  static constexpr std::tuple list{
+      field("steps", "1", "Steps and parts of steps", &S::steps),
+      field("force_evaluations", "1", "Evaluations of the forces", &S::force_evaluations),
+      field("unresolved_steps", "1",
+            "Steps longer than the forces they swept allow, which were counted", &S::unresolved),
+      later(field("halved_steps", "1",
+                  "Parts of steps that were halved until they resolve the forces", &S::halved)),
+      field("first_unresolved", "time",
+            "When the earliest step that was counted as unresolved began", &S::first_unresolved),
+      later(field("shortest_step", "time", "The shortest part of a step that was halved; 0: none",
+                  &S::shortest_part))};
 };
 
 /// Evaluations of the forces that a trajectory which goes on makes again: for states within the

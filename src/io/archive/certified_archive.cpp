@@ -215,7 +215,7 @@ CertifiedFate fate_of(const std::string& status, const std::string& file) {
 void read_end(hid_t file, const std::string& name, StoredCertified& stored) {
   const Handle group = open_group(file, "state", name);
   const auto integer = [&](const char* column) {
-    return read_number<std::int64_t>(group.get(), column, column, name);
+    return read_number<std::int64_t>(group.get(), column, name);
   };
   CertifiedEnd& end = stored.end;
   end.fate = fate_of(hdf5::read_string_attribute(file, "status", name), name);

@@ -131,8 +131,7 @@ void read_counts(hid_t file, const std::string& name, DiffusionResult& result) {
   result.contacts = numbers.contacts.value_or(0);
   result.digest = numbers.digest;
   read_integration(ends.get(), name, result.steps, result.energy_error);
-  result.energy_change =
-      read_number<double>(ends.get(), energy_change, "/fates/energy_change", name);
+  result.energy_change = read_number<double>(ends.get(), energy_change, name);
 }
 
 }  // namespace carom::io

@@ -8,7 +8,6 @@
 
 #include "carom/base/error.hpp"
 #include "io/archive/ensemble_columns.hpp"
-#include "io/archive/step_numbers.hpp"
 
 namespace carom::io {
 
@@ -65,54 +64,17 @@ void read_done(hid_t file, const std::string& name, EnsembleResult& result) {
   }
 }
 
-namespace {
-
-struct RealNumber {
-  const char* name;
-  double& value;
-  Description description;
-  bool later = false;  ///< as of StepNumber
-};
-std::vector<RealNumber> reals_of(StepCounts& steps, EnergyError& energy) {
-  return {
-      {first_unresolved,
-       steps.first_unresolved,
-       {"time", "When the earliest step that was counted as unresolved began"}},
-      {shortest_part,
-       steps.shortest_part,
-       {"time", "The shortest part of a step that was halved; 0: none"},
-       true},
-      {"energy_error_end",
-       energy.end,
-       {"1", "Largest change of an energy until the end, relative to the largest kinetic energy"}},
-      {"energy_error_largest",
-       energy.largest,
-       {"1", "Largest change of an energy that was seen, likewise"}}};
-}
-
-}  // namespace
-
-void write_integration(hid_t fates, StepCounts steps, EnergyError energy, const std::string& name) {
-  for (const StepNumber& number : step_numbers)
-    hdf5::write_number(fates, number.name, steps.*number.value, {"1", number.text}, name);
-  for (const RealNumber& number : reals_of(steps, energy))
-    hdf5::write_number(fates, number.name, double{number.value}, number.description, name);
+void write_integration(hid_t fates, const StepCounts& steps, const EnergyError& energy,
+                       const std::string& name) {
+  write_numbers(fates, steps, name);
+  write_numbers(fates, energy, name);
 }
 
 void read_integration(hid_t fates, const std::string& name, StepCounts& steps,
                       EnergyError& energy) {
-  if (!hdf5::has(fates, step_numbers[0].name)) return;
-  const auto is_there = [&](const auto& number) {
-    return !number.later || hdf5::has(fates, number.name);
-  };
-  for (const StepNumber& number : step_numbers)
-    if (is_there(number))
-      steps.*number.value = read_number<std::uint64_t>(fates, number.name,
-                                                       fmt::format("/fates/{}", number.name), name);
-  for (const RealNumber& number : reals_of(steps, energy))
-    if (is_there(number))
-      number.value =
-          read_number<double>(fates, number.name, fmt::format("/fates/{}", number.name), name);
+  if (!hdf5::has(fates, "steps")) return;
+  read_numbers(fates, steps, name);
+  read_numbers(fates, energy, name);
 }
 
 }  // namespace carom::io

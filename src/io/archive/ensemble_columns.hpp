@@ -3,18 +3,17 @@
 
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "carom/ensemble/diffusion.hpp"
 #include "carom/ensemble/escape.hpp"
 #include "carom/ensemble/lyapunov.hpp"
 #include "io/archive/archive_file.hpp"
-#include "io/archive/columns.hpp"
+#include "io/archive/fields.hpp"
 
 namespace carom::io {
 
-/// Throws InputError: what an archive holds cannot be.
-[[noreturn]] void damaged(const std::string& name, const std::string& problem);
 /// Does what was read belong to the system that it was read with? Throws InputError where it does
 /// not.
 void check_stored(const StoredEnsemble&, const EscapeResult&, const System&);
@@ -53,38 +52,41 @@ inline bool is_integrated(const System& system) {
 }
 /// What integration has cost, and how well energies were kept; archives of earlier builds have none
 /// of it.
-void write_integration(hid_t fates, StepCounts, EnergyError, const std::string& name);
+void write_integration(hid_t fates, const StepCounts&, const EnergyError&, const std::string& name);
 void read_integration(hid_t fates, const std::string& name, StepCounts&, EnergyError&);
 
 /// A group of an archive that is read; InputError where it is missing.
 hdf5::Handle open_group(hid_t file, const char* group, const std::string& name);
-/// The only number of a column, which is called `path` in messages.
-template <class T>
-T read_number(hid_t group, const char* column, const std::string& path, const std::string& name) {
-  const std::vector<T> values = hdf5::read_column<T>(group, column, name);
-  if (values.size() != 1) damaged(name, "'" + path + "' is not one number");
-  return values.front();
+/// Names of all fates, by their number.
+std::vector<std::string> fate_names();
+/// Of exponents records hold more.
+template <class Result>
+using RecordFields = std::conditional_t<std::is_same_v<Result, LyapunovResult>, ExponentFields,
+                                        Fields<TrajectoryRecord>>;
+void name_record_columns(const ArchiveFile&, const System&);
+/// Creates /trajectories.
+template <class Result>
+auto create_records(const ArchiveFile& file, const System& system) {
+  Rows<TrajectoryRecord, RecordFields<Result>> rows(file.name());
+  rows.create(file.group("trajectories", "Start and end of each trajectory, by index").get());
+  name_record_columns(file, system);
+  return rows;
 }
-
-/// `exponents`: with the columns of these.
-hdf5::Columns create_records(const ArchiveFile&, const System&, bool exponents);
-void append_records(hdf5::Columns&, const std::vector<TrajectoryRecord>&, bool exponents);
 
 /// Reads /trajectories in batches.
 class RecordReader {
  public:
   explicit RecordReader(const std::string& file);
   /// Rows that have not been read.
-  std::size_t rows() const { return left_; }
+  std::size_t rows() const { return rows_->rows() - row_; }
   /// False, and no records, at the end. Throws InputError where they are not in order of index.
   bool next(std::vector<TrajectoryRecord>&);
 
  private:
   std::string name_;
   hdf5::Handle file_;
-  std::vector<hdf5::Handle> columns_;
-  bool starts_ = false, exponents_ = false;  ///< are there the later columns?
-  std::size_t row_ = 0, left_ = 0;
+  std::optional<RowReader<TrajectoryRecord, ExponentFields>> rows_;
+  std::size_t row_ = 0;
   std::uint64_t last_ = 0;  ///< index of the last that was read
 };
 

@@ -170,7 +170,7 @@ void read_counts(hid_t file, const std::string& name, EscapeResult& result) {
   const Handle fates = open_group(file, "fates", name),
                provenance = open_group(file, "provenance", name);
   const auto number = [&](const char* what) {
-    return read_number<std::uint64_t>(fates.get(), what, fmt::format("/fates/{}", what), name);
+    return read_number<std::uint64_t>(fates.get(), what, name);
   };
   std::vector<std::uint64_t> by_hole;
   if (hdf5::has(fates.get(), "holes")) by_hole = integers(fates, "holes");
@@ -221,8 +221,7 @@ void read_counts(hid_t file, const std::string& name, EscapeResult& result) {
   counts.fewest_hits_of_survivor = number("fewest_hits_of_survivor");
   if (hdf5::has(fates.get(), "contacts")) counts.contacts = number("contacts");
   if (hdf5::has(fates.get(), "energy_change"))
-    counts.energy_change =
-        read_number<double>(fates.get(), "energy_change", "/fates/energy_change", name);
+    counts.energy_change = read_number<double>(fates.get(), "energy_change", name);
   const std::uint64_t gone = counts.escaped;
   if (total(counts.gone_in) > gone) damaged(name, "'/survival/gone' has more than '/fates'");
   if (counts.gone_at.total() > gone) damaged(name, "'/escape_times/gone' has more than '/fates'");

@@ -117,7 +117,7 @@ void write_free_paths(const ArchiveFile& file, const FreePathSums& sums) {
 FreePathSums read_free_paths(hid_t file, const std::string& name) {
   if (!hdf5::has(file, by_group)) return {};
   const Handle by = open_group(file, by_group, name);
-  FreePathSums sums(read_number<double>(by.get(), "limit", "/free_path_groups/limit", name));
+  FreePathSums sums(read_number<double>(by.get(), "limit", name));
   const auto hits = hdf5::read_column<std::uint64_t>(by.get(), "hits", name);
   if (hits.size() != FreePathSums::groups)
     damaged(name, "'/free_path_groups/hits' has not one row a group");

@@ -86,14 +86,11 @@ void write_repeller(const ArchiveFile& file, const RepellerExponent& r) {
 std::optional<RepellerExponent> read_repeller(hid_t file, const std::string& name) {
   if (!hdf5::has(file, repeller_name)) return std::nullopt;
   const Handle g = open_group(file, repeller_name, name);
-  const auto path = [](const std::string& key) {
-    return fmt::format("/{}/{}", repeller_name, key);
-  };
   const auto number = [&](const std::string& key) {
-    return read_number<double>(g.get(), key.c_str(), path(key), name);
+    return read_number<double>(g.get(), key, name);
   };
   const auto count = [&](const std::string& key) {
-    return read_number<std::uint64_t>(g.get(), key.c_str(), path(key), name);
+    return read_number<std::uint64_t>(g.get(), key, name);
   };
   RepellerExponent r;
   visit_quantities(r, [&](const std::string& key, const char*, const char*, Extrapolated& e) {
@@ -103,7 +100,7 @@ std::optional<RepellerExponent> read_repeller(hid_t file, const std::string& nam
                errors =
                    hdf5::read_column<double>(g.get(), (key + "_at_kicks_stderr").c_str(), name);
     if (values.size() != kick_sizes || errors.size() != kick_sizes)
-      damaged(name, fmt::format("'{}' has lost rows", path(key + "_at_kicks")));
+      damaged(name, fmt::format("'/{}/{}_at_kicks' has lost rows", repeller_name, key));
     for (std::size_t i = 0; i < kick_sizes; ++i) e.at_kick[i] = {values[i], errors[i]};
     e.repetitions = count("repetitions");
   });
@@ -172,9 +169,7 @@ void write_spectrum(const Handle& shown, const Handle& kept, const SpectrumSums&
 SpectrumSums read_spectrum(const Handle& shown, const Handle& kept, const GrowthSums& like,
                            const std::string& file) {
   if (!hdf5::has(kept.get(), "spectrum_totals")) return {};
-  const std::string path = fmt::format("/{}/", sums_name);
-  const auto zeros =
-      read_number<std::uint64_t>(kept.get(), "spectrum_zeros", path + "spectrum_zeros", file);
+  const auto zeros = read_number<std::uint64_t>(kept.get(), "spectrum_zeros", file);
   const std::size_t count = hdf5::read_column<double>(shown.get(), "spectrum", file).size() + 1;
   const std::size_t levels = like.totals().levels.size();
   const auto totals = read_sums(kept, sums_name, "spectrum_totals", count, file),
@@ -212,8 +207,7 @@ DriftSums read_drift(const Handle& g, const char* column, const std::string& fil
   DriftSums made;
   if (!hdf5::has(g.get(), column)) return made;
   const std::string orbits = fmt::format("{}_orbits", column);
-  made.orbits = read_number<std::uint64_t>(g.get(), orbits.c_str(),
-                                           fmt::format("/{}/{}", sums_name, orbits), file);
+  made.orbits = read_number<std::uint64_t>(g.get(), orbits, file);
   const auto sums = read_sums(g, sums_name, column, 5, file);
   made.far = sums[0], made.near = sums[1];
   made.far_squares = sums[2], made.near_squares = sums[3], made.product = sums[4];
@@ -313,13 +307,11 @@ void write_counts(const ArchiveFile& file, const LyapunovResult& result, const S
 void read_counts(hid_t file, const std::string& name, LyapunovResult& result) {
   const Handle shown = open_group(file, group_name, name), g = open_group(file, sums_name, name),
                ends = open_group(file, "fates", name);
-  const auto path = [](const char* column) { return fmt::format("/{}/{}", sums_name, column); };
   const auto count = [&](const char* column) {
-    return read_number<std::uint64_t>(g.get(), column, path(column), name);
+    return read_number<std::uint64_t>(g.get(), column, name);
   };
   const auto edge = [&](const char* column) {
-    return read_number<double>(shown.get(), column, fmt::format("/{}/{}", group_name, column),
-                               name);
+    return read_number<double>(shown.get(), column, name);
   };
   const TimeWindow window{edge("from"), edge("to")};
   GrowthSums::Totals t;
@@ -327,9 +319,8 @@ void read_counts(hid_t file, const std::string& name, LyapunovResult& result) {
   const auto at = hdf5::read_column<std::uint64_t>(g.get(), "chaotic_at", name);
   if (at.size() != t.chaotic_at.size()) damaged(name, "'/lyapunov_sums/chaotic_at' has lost rows");
   std::copy(at.begin(), at.end(), t.chaotic_at.begin());
-  const auto exponent =
-                 read_number<std::int64_t>(g.get(), "bin_exponent", path("bin_exponent"), name),
-             first = read_number<std::int64_t>(g.get(), "bin_first", path("bin_first"), name);
+  const auto exponent = read_number<std::int64_t>(g.get(), "bin_exponent", name),
+             first = read_number<std::int64_t>(g.get(), "bin_first", name);
   const std::uint64_t blocks = count("blocks");
   if (exponent < GrowingHistogram::finest || exponent > 1023 || !GrowthSums::may_be_blocks(blocks))
     damaged(name, "'/lyapunov_sums' has impossible blocks or bins");

@@ -2,9 +2,8 @@
 #include <utility>
 
 #include "io/archive/archive_file.hpp"
-#include "io/archive/columns.hpp"
 #include "io/archive/ensemble_columns.hpp"
-#include "io/archive/section_numbers.hpp"
+#include "io/archive/fields.hpp"
 #include "io/checkpoint/ensemble_files.hpp"
 
 namespace carom {
@@ -23,33 +22,16 @@ class SectionArchive::Implementation {
     const System& system = loaded.system;
     const Handle group =
         file.group("section", "Points of the section, orbit after orbit, in order of time");
-    const hid_t to = group.get();
-    rows.add<std::uint64_t>(to, "orbit", {"1", "Index of the trajectory"});
-    rows.add<std::uint64_t>(to, "index",
-                            {"1", "Number of the point in the orbit of its particle, from 0"});
-    rows.add<std::int32_t>(to, "particle", {"1", "Index of the particle"});
-    const hid_t wall = rows.add<std::int32_t>(
-        to, "wall", {"1", "Index into the attribute `names`, -1: not at a wall"});
+    rows.create(group.get());
     std::vector<std::string> names;
     for (const Wall& w : system.table->walls) names.push_back(w.name);
-    if (!names.empty()) hdf5::write_attribute(wall, "names", names, path);
-    rows.add<std::int32_t>(to, "direction", {"1", "Sense of the crossing, 1 or -1; 0 at a wall"});
-    rows.add<double>(to, "t", {"time", "Time"});
-    rows.add<double>(
-        to, "s",
-        {"length", "Length along the wall, line or circle; 0 for conditions on the velocity"});
-    rows.add<double>(to, "v_parallel",
-                     {"length/time", "Velocity in the direction of s; 0 likewise"});
-    rows.add<double>(to, "x", {"length", "Position, unwrapped"});
-    rows.add<double>(to, "y", {"length", "Position, unwrapped"});
-    rows.add<double>(to, "vx", {"length/time", "Velocity, after the hit at a wall"});
-    rows.add<double>(to, "vy", {"length/time", "Velocity, after the hit at a wall"});
+    if (!names.empty()) hdf5::write_attribute(rows.column("wall"), "names", names, path);
   }
 
   ArchiveLock lock;
   std::string target;
   ArchiveFile file;
-  hdf5::Columns rows;
+  Rows<SectionPoint> rows;
   bool integrated;
 };
 
@@ -64,9 +46,7 @@ SectionArchive::~SectionArchive() = default;
 
 void SectionArchive::append(const std::vector<SectionPoint>& points) {
   hdf5::silence();
-  for (const SectionPoint& p : points)
-    implementation_->rows.row(p.orbit, p.index, p.particle, p.wall, p.direction, p.t, p.s,
-                              p.v_parallel, p.x, p.y, p.vx, p.vy);
+  for (const SectionPoint& point : points) implementation_->rows.add(point);
 }
 
 void SectionArchive::finish(const SectionResult& result, const std::string& status) {
@@ -74,9 +54,7 @@ void SectionArchive::finish(const SectionResult& result, const std::string& stat
   a.rows.close();
   {
     const Handle group = a.file.group("fates", "Numbers of orbits");
-    for (const SectionNumber& number : section_numbers)
-      hdf5::write_number(group.get(), number.name, result.*number.value, {"1", number.text},
-                         a.target);
+    write_numbers(group.get(), result, a.target);
     write_fates(group, result, a.target);
     if (a.integrated) write_integration(group.get(), result.steps, result.energy_error, a.target);
     const Handle provenance = a.file.open_group("provenance");

@@ -8,8 +8,7 @@
 #include "carom/geometry/curve.hpp"
 #include "io/archive/archive_file.hpp"
 #include "io/archive/checksums.hpp"
-#include "io/archive/columns.hpp"
-#include "io/archive/step_numbers.hpp"
+#include "io/archive/fields.hpp"
 #include "io/archive/trust_columns.hpp"
 #include "io/checkpoint/ensemble_files.hpp"
 
@@ -73,61 +72,12 @@ StoredRun read_run(const std::string& name) {
     run.trajectory = hdf5::read_count_attribute(provenance.get(), trajectory_key, name);
 
   const Handle state(H5Gopen2(file.get(), "state", H5P_DEFAULT), H5Gclose);
-  const auto reals = [&](const char* field) {
-    return hdf5::read_column<double>(state.get(), field, name);
-  };
-  const auto integers = [&](const char* field) {
-    return hdf5::read_column<std::int64_t>(state.get(), field, name);
-  };
-  const auto wall = integers("wall"), first = integers("cell_first"),
-             second = integers("cell_second"), hits = integers("hits"),
-             contacts = integers("contacts"), last_wall = integers("last_wall"),
-             hole = integers("hole"), fate = integers("fate");
-  const auto u = reals("u"), x = reals("x"), y = reals("y"), vx = reals("vx"), vy = reals("vy"),
-             high = reals("t_high"), low = reals("t_low"), end_high = reals("end_high"),
-             end_low = reals("end_low");
-  const auto later = [&](const char* field, double none = 0.0) {  // none in earlier builds
-    const bool there = hdf5::has(state.get(), field);
-    return there ? reals(field) : std::vector<double>(wall.size(), none);
-  };
-  const auto change = later("energy_change"), largest = later("energy_largest"),
-             kinetic = later("energy_kinetic"), speed = later("speed"),
-             change_low = later("energy_change_low"),
-             last = later("energy_last", EnergyBalance().last);
-  for (std::size_t i = 0; i < wall.size(); ++i) {
-    ParticleProgress p;
-    p.state.wall = static_cast<int>(wall[i]);
-    p.state.u = u.at(i);
-    p.state.position = {x.at(i), y.at(i)};
-    p.state.velocity = {vx.at(i), vy.at(i)};
-    p.speed = speed.at(i);
-    p.state.cell = {first.at(i), second.at(i)};
-    p.state.time = {high.at(i), low.at(i)};
-    p.end = {end_high.at(i), end_low.at(i)};
-    p.hits = static_cast<std::uint64_t>(hits.at(i));
-    p.contacts = static_cast<std::uint64_t>(contacts.at(i));
-    p.last_wall = static_cast<std::int32_t>(last_wall.at(i));
-    p.hole = static_cast<std::int32_t>(hole.at(i));
-    p.fate = static_cast<Fate>(fate.at(i));
-    p.energy = {change.at(i), largest.at(i), kinetic.at(i), change_low.at(i), last.at(i)};
-    run.particles.push_back(p);
-  }
+  run.particles = read_all_rows<ParticleProgress>(state.get(), name);
   if (hdf5::has(file.get(), "steps")) {
     const Handle steps(H5Gopen2(file.get(), "steps", H5P_DEFAULT), H5Gclose);
-    for (const StepNumber& number : step_numbers)
-      if (!number.later || hdf5::has(steps.get(), number.name))
-        run.steps.*number.value =
-            hdf5::read_column<std::uint64_t>(steps.get(), number.name, name).at(0);
-    if (hdf5::has(steps.get(), shortest_part))
-      run.steps.shortest_part = hdf5::read_column<double>(steps.get(), shortest_part, name).at(0);
+    read_numbers(steps.get(), run.steps, name);
     run.evaluations.count = run.steps.force_evaluations;
-    if (hdf5::has(steps.get(), going_on)) {
-      run.evaluations.count = hdf5::read_column<std::uint64_t>(steps.get(), going_on, name).at(0);
-      run.evaluations.predicted =
-          hdf5::read_column<std::uint64_t>(steps.get(), predicted, name).at(0) != 0;
-    }
-    run.steps.first_unresolved =
-        hdf5::read_column<double>(steps.get(), first_unresolved, name).at(0);
+    read_numbers(steps.get(), run.evaluations, name);
   }
   if (hdf5::has(file.get(), "trust"))
     read_trust(Handle(H5Gopen2(file.get(), "trust", H5P_DEFAULT), H5Gclose).get(), run.particles,

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
-#include <type_traits>
 #include <utility>
 
 #include "carom/base/error.hpp"
@@ -96,15 +95,14 @@ void EnsembleArchive<Result>::Implementation::write(const Result& result, const 
   if (!merged.empty())
     hdf5::write_attribute(file.open_group("provenance").get(), "merged", merged, target);
   write_counts(file, result, loaded.system);
-  constexpr bool of_exponents = std::is_same_v<Result, LyapunovResult>;
   if (log && last) {
-    hdf5::Columns columns = create_records(file, loaded.system, of_exponents);
+    auto rows = create_records<Result>(file, loaded.system);
     std::optional<std::uint64_t> before;
     log->read([&](const RecordLog::Piece& piece, const std::vector<TrajectoryRecord>& records) {
       check_records(piece, records, before, loaded.system, target);
-      append_records(columns, records, of_exponents);
+      for (const TrajectoryRecord& record : records) rows.add(record);
     });
-    columns.close();
+    rows.close();
   } else if (log) {
     write_pieces(file, log->sync());
   }

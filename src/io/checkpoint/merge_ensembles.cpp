@@ -99,9 +99,9 @@ class Source {
   std::ptrdiff_t at_ = 0;
 };
 
-void write_records(const ArchiveFile& file, const System& system, bool exponents,
-                   std::vector<Source>& sources) {
-  hdf5::Columns columns = create_records(file, system, exponents);
+template <class Result>
+void write_records(const ArchiveFile& file, const System& system, std::vector<Source>& sources) {
+  auto rows = create_records<Result>(file, system);
   constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
   for (;;) {
     Source* lowest = nullptr;
@@ -117,9 +117,9 @@ void write_records(const ArchiveFile& file, const System& system, bool exponents
     if (!lowest || lowest->head() == none) break;
     std::vector<TrajectoryRecord> records;
     lowest->take(others, records);
-    append_records(columns, records, exponents);
+    for (const TrajectoryRecord& record : records) rows.add(record);
   }
-  columns.close();
+  rows.close();
 }
 
 }  // namespace
@@ -179,7 +179,7 @@ void write_sum(const std::string& path, const LoadedSystem& loaded, const Proven
   if (sum.per_trajectory) {
     std::vector<Source> sources;
     for (const EnsemblePart& part : sum.parts) sources.emplace_back(part.file, part.done, system);
-    write_records(file, system, std::is_same_v<Result, LyapunovResult>, sources);
+    write_records<Result>(file, system, sources);
   }
   file.set_status(sum.status, sum.result.complete);
   file.keep_as(path);
