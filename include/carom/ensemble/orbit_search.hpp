@@ -42,6 +42,18 @@ struct OrbitSearchResult {
   int threads = 1;
 };
 
+/// The counts.
+template <>
+struct Fields<OrbitSearchResult> {
+  using R = OrbitSearchResult;
+  static constexpr std::tuple list{
+      field("words", "1", "Cyclic words of discs that were tried", &R::words),
+      field("recurrences", "1", "Recurrences that were tried", &R::recurrences),
+      field("unsolved", "1", "Starts that led to no orbit", &R::unsolved),
+      field("shadowed", "1", "Starts that led to one with a wall in its way", &R::shadowed),
+      field("symmetries", "1", "Isometries of the table", &R::symmetries)};
+};
+
 /// Looks for the periodic orbits of one free particle, holes closed. Between discs in the open
 /// plane it tries every cyclic word of discs: without field these are all orbits whose discs stand
 /// apart. Elsewhere it tries the closest recurrences of random orbits, and may miss orbits. The

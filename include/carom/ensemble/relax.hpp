@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "carom/base/fields.hpp"
 #include "carom/ensemble/system.hpp"
 #include "carom/geometry/vector.hpp"
 
@@ -15,6 +16,13 @@ namespace carom {
 struct NormalMode {
   double frequency = 0.0;  ///< >= 0
   double growth = 0.0;     ///< > 0: it leaves; 0: it oscillates, or rests where the frequency is 0
+};
+
+template <>
+struct Fields<NormalMode> {
+  static constexpr std::tuple list{
+      field("frequency", "1/time", "Angular frequency", &NormalMode::frequency),
+      field("growth", "1/time", "Rate of growth", &NormalMode::growth)};
 };
 
 /// A place where the potential energy of all particles is stationary.
@@ -35,6 +43,21 @@ struct Equilibrium {
   bool minimum() const { return descending == 0; }
 };
 
+template <>
+struct Fields<Equilibrium> {
+  using E = Equilibrium;
+  static constexpr std::tuple list{
+      field("energy", "energy", "Potential energy of all particles", &E::energy),
+      field("energy_error", "energy", "Bound of its rounding", &E::energy_error),
+      field("position_error", "length", "Error of a coordinate", &E::position_error),
+      field_as<std::int64_t>("descending", "1",
+                             "Directions in which the energy falls; 0: a minimum", &E::descending),
+      field_as<std::int64_t>("neutral", "1",
+                             "Directions in which it does not change to second order", &E::neutral),
+      field("found", "1", "Starts that led here, or to a symmetric copy", &E::found),
+      field("first", "1", "Trajectory whose start first led here", &E::first)};
+};
+
 /// How to search.
 struct RelaxOptions {
   std::uint64_t starts = 200;  ///< trajectories 0 ... starts - 1 of the system's ensemble
@@ -52,6 +75,13 @@ struct RelaxResult {
   bool complete = true;
   int threads = 1;
   double seconds = 0.0, cpu_seconds = 0.0;
+};
+
+template <>
+struct Fields<RelaxResult> {
+  static constexpr std::tuple list{
+      field("starts", "1", "Starts that were followed", &RelaxResult::starts),
+      field("without", "1", "Searches that came to no equilibrium", &RelaxResult::without)};
 };
 
 /// Minimises the potential energy from the starts of the system (docs/physics/equilibria.md). The

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "carom/base/fields.hpp"
 #include "carom/geometry/lattice.hpp"
 #include "carom/geometry/vector.hpp"
 #include "carom/table/table.hpp"
@@ -25,6 +26,36 @@ struct OrbitHit {
   double flight_time = 0.0;   ///< until the next hit
   geometry::Cell step;        ///< on a lattice: cells between this hit and the next
   int hole = -1;              ///< the hole (index into Table::holes) that the point lies in
+};
+
+template <>
+struct Fields<OrbitHit> {
+  using H = OrbitHit;
+  static constexpr std::tuple list{
+      field("wall", "1", "Index into the attribute `names` of the group", &H::wall),
+      field("hole", "1", "Index of the hole in which it lies; -1: none", &H::hole),
+      field("u", "1", "Parameter on the wall", &H::u),
+      field("s", "length", "Length along the wall", &H::s),
+      field("v_parallel", "length/time", "Velocity in the direction of s", &H::v_parallel),
+      field_as<double>(
+          "x", "length", "Position, in the home cell",
+          [](auto& h) -> auto& { return h.position.x; }),
+      field_as<double>(
+          "y", "length", "Position, in the home cell",
+          [](auto& h) -> auto& { return h.position.y; }),
+      field_as<double>(
+          "vx", "length/time", "Velocity after the hit",
+          [](auto& h) -> auto& { return h.velocity.x; }),
+      field_as<double>(
+          "vy", "length/time", "Velocity after the hit",
+          [](auto& h) -> auto& { return h.velocity.y; }),
+      field("flight_time", "time", "Until the next hit", &H::flight_time),
+      field_as<std::int64_t>(
+          "step_first", "1", "Cells to the next hit, along the first vector",
+          [](auto& h) -> auto& { return h.step.first; }),
+      field_as<std::int64_t>(
+          "step_second", "1", "Cells to the next hit, along the second vector",
+          [](auto& h) -> auto& { return h.step.second; })};
 };
 
 /// By the eigenvalues of the tangent map of one period: on the unit circle, real and positive, real
@@ -64,6 +95,35 @@ struct PeriodicOrbit {
   int copies = 1;  ///< different orbits that symmetry and reversal make of it, itself included
   SymmetryReduced reduced;
   std::vector<double> half_turns;  ///< half the angle that each flight turns by; 0 without field
+};
+
+template <>
+struct Fields<PeriodicOrbit> {
+  using O = PeriodicOrbit;
+  static constexpr std::tuple list{
+      field("period", "time", "Period", &O::period),
+      field("length", "length", "Length", &O::length),
+      field("action", "mass*length^2/time", "Closed integral of p dq", &O::action),
+      field("trace", "1", "Trace of the tangent map", &O::trace),
+      field("position_error", "length", "Bound of the error of the hits' places",
+            &O::position_error),
+      field("length_error", "length", "Bound of the error of the length", &O::length_error),
+      field("trace_error", "1", "Estimated error of the trace", &O::trace_error),
+      field_as<double>(
+          "reduced_period", "time", "Period of the part that symmetry leaves",
+          [](auto& o) -> auto& { return o.reduced.period; }),
+      field_as<double>(
+          "reduced_trace", "1", "Trace of its tangent map, turned back",
+          [](auto& o) -> auto& { return o.reduced.trace; }),
+      field_as<double>(
+          "reduced_multiplier", "1", "Its real eigenvalue of largest size; NaN: none",
+          [](auto& o) -> auto& { return o.reduced.multiplier; }),
+      field_as<std::int32_t>(
+          "reduced_order", "1", "Number of such parts",
+          [](auto& o) -> auto& { return o.reduced.order; }),
+      field("copies", "1", "Orbits that symmetries and reversal make of it", &O::copies),
+      field("stability", "1", "Index into the attribute `stabilities` of the group", &O::stability),
+      field("family", "1", "1: one member of a family", &O::family)};
 };
 
 /// "disc_1 disc_2 …", wall after wall.

@@ -24,8 +24,8 @@ int PieceTable::hole_at(const Flight& f, const Ahead& ahead, double u,
   const double error =
       parameter_error(*p.shape, origin.point, d1, ahead.kappa, error_of(f, ahead), origin.scale);
   const Wall& wall = table.walls[at(p.wall)];
-  // Where hits are found by the flight's line (PreparedCurve::arrival_by_line) a grazing one errs by
-  // more.
+  // Where hits are found by the flight's line (PreparedCurve::arrival_by_line) a grazing one errs
+  // by more.
   bool decided = !p.shape->thin() && (p.kind == CurveKind::segment || error < longest_step);
   int inside = -1;
   for (const int h : wall.holes) {

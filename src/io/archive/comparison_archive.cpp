@@ -15,30 +15,13 @@ namespace carom {
 
 using namespace io;
 using hdf5::Handle;
+using RunRow = StoredRunRow;
+using SchemeRow = StoredSchemeRow;
 
 namespace {
 
 constexpr const char* kind = "compare";
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-template <class Row, class T, std::size_t n>
-void write(hid_t group, const std::vector<Row>& rows, const Entry<Row, T> (&entries)[n],
-           const std::string& file) {
-  for (const Entry<Row, T>& entry : entries) {
-    std::vector<T> column;
-    for (const Row& row : rows) column.push_back(row.*entry.value);
-    hdf5::write_column<T>(group, entry.name, column, entry.description, file);
-  }
-}
-template <class Row, class T, std::size_t n>
-void read(hid_t group, std::vector<Row>& rows, const Entry<Row, T> (&entries)[n],
-          const std::string& file) {
-  for (const Entry<Row, T>& entry : entries) {
-    const std::vector<T> column = hdf5::read_column<T>(group, entry.name, file);
-    rows.resize(std::max(rows.size(), column.size()));
-    for (std::size_t i = 0; i < column.size(); ++i) rows[i].*entry.value = column[i];
-  }
-}
 
 void write_names(hid_t group, const char* column, const std::vector<std::string>& names,
                  const std::string& file) {
@@ -99,9 +82,7 @@ ComparedScheme scheme_of(const SchemeRow& row) {
 
 void write_result(const ArchiveFile& file, const Comparison& result, const std::string& name) {
   const Handle all = file.group("comparison", "What integrators are compared with");
-  for (const auto& entry : comparison_numbers)
-    hdf5::write_number(all.get(), entry.name, result.*entry.value, entry.description, name);
-  hdf5::write_number(all.get(), "hits", result.hits, {"1", "Hits of the reference"}, name);
+  write_numbers(all.get(), result, name);
   hdf5::write_attribute(all.get(), "reference", result.exact ? "exact flights" : result.reference,
                         name);
   std::vector<std::string> schemes, reasons{""}, failures{""};
@@ -110,6 +91,7 @@ void write_result(const ArchiveFile& file, const Comparison& result, const std::
   for (const ComparedScheme& scheme : result.schemes) {
     schemes.push_back(scheme.name);
     rows.push_back(row_of(scheme));
+    rows.back().reason = index_of(reasons, scheme.measured.reason);
     for (const ComparedRun& run : scheme.runs) {
       RunRow row{run};
       row.scheme = static_cast<std::int64_t>(schemes.size()) - 1;
@@ -119,20 +101,11 @@ void write_result(const ArchiveFile& file, const Comparison& result, const std::
     }
   }
   const Handle list = file.group("schemes", "The schemes that are compared");
-  write(list.get(), rows, scheme_numbers, name);
-  write(list.get(), rows, scheme_indices, name);
+  write_columns(list.get(), std::span<const SchemeRow>(rows), name);
   write_names(list.get(), "order", schemes, name);
-  std::vector<std::int64_t> reason;
-  for (const ComparedScheme& scheme : result.schemes)
-    reason.push_back(index_of(reasons, scheme.measured.reason));
-  hdf5::write_column<std::int64_t>(
-      list.get(), "reason", reason,
-      {"1", "Why no order was measured: index into the attribute `names`; 0: it was"}, name);
   write_names(list.get(), "reason", reasons, name);
   const Handle group = file.group("runs", "Runs, scheme after scheme");
-  write(group.get(), runs, run_numbers, name);
-  write(group.get(), runs, run_counts, name);
-  write(group.get(), runs, run_indices, name);
+  write_columns(group.get(), std::span<const RunRow>(runs), name);
   write_names(group.get(), "scheme", schemes, name);
   write_names(group.get(), "failure", failures, name);
 }
@@ -166,29 +139,20 @@ StoredComparison read_comparison(const std::string& name) {
   };
   const Handle all = opened("comparison"), list = opened("schemes"), group = opened("runs"),
                provenance = opened("provenance");
-  for (const auto& entry : comparison_numbers)
-    result.*entry.value = hdf5::read_column<double>(all.get(), entry.name, name).at(0);
-  result.hits = hdf5::read_column<std::uint64_t>(all.get(), "hits", name).at(0);
+  read_numbers(all.get(), result, name);
   result.reference = hdf5::read_string_attribute(all.get(), "reference", name);
   result.exact = result.reference == "exact flights";
   if (result.exact) result.reference.clear();
-  std::vector<SchemeRow> rows;
-  read(list.get(), rows, scheme_numbers, name);
-  read(list.get(), rows, scheme_indices, name);
+  const std::vector<SchemeRow> rows = read_all_rows<SchemeRow>(list.get(), name);
   const std::vector<std::string> names = read_names(list.get(), "order", name),
                                  reasons = read_names(list.get(), "reason", name),
                                  failures = read_names(group.get(), "failure", name);
-  const auto reason = hdf5::read_column<std::int64_t>(list.get(), "reason", name);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     result.schemes.push_back(scheme_of(rows[k]));
     result.schemes.back().name = names.at(k);
-    result.schemes.back().measured.reason = reasons.at(static_cast<std::size_t>(reason.at(k)));
+    result.schemes.back().measured.reason = reasons.at(static_cast<std::size_t>(rows[k].reason));
   }
-  std::vector<RunRow> runs;
-  read(group.get(), runs, run_numbers, name);
-  read(group.get(), runs, run_counts, name);
-  read(group.get(), runs, run_indices, name);
-  for (RunRow& row : runs) {
+  for (RunRow& row : read_all_rows<RunRow>(group.get(), name)) {
     row.failure = failures.at(static_cast<std::size_t>(row.failed_by));
     row.same_hits = row.all_same != 0;
     result.schemes.at(static_cast<std::size_t>(row.scheme)).runs.push_back(row);

@@ -8,6 +8,7 @@
 #include "io/archive/archive_file.hpp"
 #include "io/archive/checksums.hpp"
 #include "io/archive/ensemble_columns.hpp"
+#include "io/archive/fields.hpp"
 #include "io/checkpoint/ensemble_files.hpp"
 
 namespace carom {
@@ -20,107 +21,14 @@ namespace {
 constexpr const char* orbit_archive_kind = "orbit";
 constexpr std::int32_t no_index = -1;
 
-// Columns of /orbits and /orbit_hits, where writing and reading meet: `table.column` is called for
-// each with its name, what it is, and the place of its value in a row.
-template <class Table>
-void orbit_columns(Table& table) {
-  using Orbit = PeriodicOrbit;
-  table.real("period", {"time", "Period"}, [](Orbit& o) -> double& { return o.period; });
-  table.real("length", {"length", "Length"}, [](Orbit& o) -> double& { return o.length; });
-  table.real("action", {"mass*length^2/time", "Closed integral of p dq"},
-             [](Orbit& o) -> double& { return o.action; });
-  table.real("trace", {"1", "Trace of the tangent map"},
-             [](Orbit& o) -> double& { return o.trace; });
-  table.real("position_error", {"length", "Bound of the error of the hits' places"},
-             [](Orbit& o) -> double& { return o.position_error; });
-  table.real("length_error", {"length", "Bound of the error of the length"},
-             [](Orbit& o) -> double& { return o.length_error; });
-  table.real("trace_error", {"1", "Estimated error of the trace"},
-             [](Orbit& o) -> double& { return o.trace_error; });
-  table.real("reduced_period", {"time", "Period of the part that symmetry leaves"},
-             [](Orbit& o) -> double& { return o.reduced.period; });
-  table.real("reduced_trace", {"1", "Trace of its tangent map, turned back"},
-             [](Orbit& o) -> double& { return o.reduced.trace; });
-  table.real("reduced_multiplier", {"1", "Its real eigenvalue of largest size; NaN: none"},
-             [](Orbit& o) -> double& { return o.reduced.multiplier; });
-  table.whole("reduced_order", {"1", "Number of such parts"},
-              [](Orbit& o) -> int& { return o.reduced.order; });
-  table.whole("copies", {"1", "Orbits that symmetries and reversal make of it"},
-              [](Orbit& o) -> int& { return o.copies; });
-}
-template <class Table>
-void hit_columns(Table& table) {
-  using Hit = OrbitHit;
-  table.whole("wall", {"1", "Index into the attribute `names` of the group"},
-              [](Hit& h) -> int& { return h.wall; });
-  table.whole("hole", {"1", "Index of the hole in which it lies; -1: none"},
-              [](Hit& h) -> int& { return h.hole; });
-  table.real("u", {"1", "Parameter on the wall"}, [](Hit& h) -> double& { return h.u; });
-  table.real("s", {"length", "Length along the wall"}, [](Hit& h) -> double& { return h.s; });
-  table.real("v_parallel", {"length/time", "Velocity in the direction of s"},
-             [](Hit& h) -> double& { return h.v_parallel; });
-  table.real("x", {"length", "Position, in the home cell"},
-             [](Hit& h) -> double& { return h.position.x; });
-  table.real("y", {"length", "Position, in the home cell"},
-             [](Hit& h) -> double& { return h.position.y; });
-  table.real("vx", {"length/time", "Velocity after the hit"},
-             [](Hit& h) -> double& { return h.velocity.x; });
-  table.real("vy", {"length/time", "Velocity after the hit"},
-             [](Hit& h) -> double& { return h.velocity.y; });
-  table.real("flight_time", {"time", "Until the next hit"},
-             [](Hit& h) -> double& { return h.flight_time; });
-}
-
-template <class Row>
-struct Writer {
-  hid_t group;
-  const std::vector<Row*>& rows;
-  const std::string& file;
-
-  template <class Value>
-  void real(const char* name, hdf5::Description what, Value value) const {
-    write<double>(name, what, value);
-  }
-  template <class Value>
-  void whole(const char* name, hdf5::Description what, Value value) const {
-    write<std::int32_t>(name, what, value);
-  }
-  template <class T, class Value>
-  void write(const char* name, hdf5::Description what, Value value) const {
-    std::vector<T> column;
-    for (Row* row : rows) column.push_back(static_cast<T>(value(*row)));
-    hdf5::write_column<T>(group, name, column, what, file);
-  }
+// What an orbit and a hit hold in another form.
+struct OrbitExtra {
+  std::int32_t hits = 0, maslov = no_index;
+  double real = 0.0, imaginary = 0.0;
 };
-
-template <class Row>
-struct Reader {
-  hid_t group;
-  const std::vector<Row*>& rows;
-  const std::string& file;
-
-  template <class Value>
-  void real(const char* name, hdf5::Description, Value value) const {
-    read<double>(name, value);
-  }
-  template <class Value>
-  void whole(const char* name, hdf5::Description, Value value) const {
-    read<std::int32_t>(name, value);
-  }
-  template <class T, class Value>
-  void read(const char* name, Value value) const {
-    const std::vector<T> column = hdf5::read_column<T>(group, name, file);
-    if (column.size() != rows.size())
-      throw InputError(Place{file, 0, 0, name}, "the archive is damaged");
-    for (std::size_t i = 0; i < rows.size(); ++i) value(*rows[i]) = column[i];
-  }
-};
-
-// What has no place of its own in an orbit's or hit's row.
-struct Extra {
-  std::vector<std::int32_t> hits, stability, maslov, family, orbit;
-  std::vector<double> real, imaginary, half_turn;
-  std::vector<std::int64_t> step_first, step_second;
+struct HitExtra {
+  std::int32_t orbit = 0;
+  double half_turn = 0.0;
 };
 
 struct ProofColumn {
@@ -135,49 +43,28 @@ constexpr ProofColumn proof_columns[] = {
     {"trace", &ProofOfOrbit::trace, {"1", "Trace of the tangent map"}},
     {"multiplier", &ProofOfOrbit::multiplier, {"1", "Its larger eigenvalue, if that is real"}}};
 
-struct Count {
-  const char* name;
-  std::uint64_t OrbitSearchResult::*value;
-  const char* text;
+// Hits of all orbits, one after the other.
+struct FlatHits {
+  std::vector<OrbitHit> hits;
+  std::vector<HitExtra> extras;
 };
-constexpr Count counts[] = {
-    {"words", &OrbitSearchResult::words, "Cyclic words of discs that were tried"},
-    {"recurrences", &OrbitSearchResult::recurrences, "Recurrences that were tried"},
-    {"unsolved", &OrbitSearchResult::unsolved, "Starts that led to no orbit"},
-    {"shadowed", &OrbitSearchResult::shadowed, "Starts that led to one with a wall in its way"},
-    {"symmetries", &OrbitSearchResult::symmetries, "Isometries of the table"},
-};
-
-std::vector<PeriodicOrbit*> pointers(std::vector<PeriodicOrbit>& orbits) {
-  std::vector<PeriodicOrbit*> all;
-  for (PeriodicOrbit& orbit : orbits) all.push_back(&orbit);
-  return all;
-}
-std::vector<OrbitHit*> hit_pointers(std::vector<PeriodicOrbit>& orbits) {
-  std::vector<OrbitHit*> all;
-  for (PeriodicOrbit& orbit : orbits)
-    for (OrbitHit& hit : orbit.hits) all.push_back(&hit);
-  return all;
-}
-
-Extra extra_of(const std::vector<PeriodicOrbit>& orbits) {
-  Extra extra;
+FlatHits flat(const std::vector<PeriodicOrbit>& orbits) {
+  FlatHits all;
   for (std::size_t i = 0; i < orbits.size(); ++i) {
     const PeriodicOrbit& o = orbits[i];
-    extra.hits.push_back(static_cast<std::int32_t>(o.hits.size()));
-    extra.stability.push_back(static_cast<std::int32_t>(o.stability));
-    extra.maslov.push_back(o.maslov.value_or(no_index));
-    extra.family.push_back(o.family);
-    extra.real.push_back(o.multipliers[0].real());
-    extra.imaginary.push_back(o.multipliers[0].imag());
-    for (std::size_t h = 0; h < o.hits.size(); ++h) {
-      extra.orbit.push_back(static_cast<std::int32_t>(i));
-      extra.half_turn.push_back(o.half_turns[h]);
-      extra.step_first.push_back(o.hits[h].step.first);
-      extra.step_second.push_back(o.hits[h].step.second);
-    }
+    all.hits.insert(all.hits.end(), o.hits.begin(), o.hits.end());
+    for (const double turn : o.half_turns)
+      all.extras.push_back({static_cast<std::int32_t>(i), turn});
   }
-  return extra;
+  return all;
+}
+
+std::vector<OrbitExtra> extras_of(const std::vector<PeriodicOrbit>& orbits) {
+  std::vector<OrbitExtra> extras;
+  for (const PeriodicOrbit& o : orbits)
+    extras.push_back({static_cast<std::int32_t>(o.hits.size()), o.maslov.value_or(no_index),
+                      o.multipliers[0].real(), o.multipliers[0].imag()});
+  return extras;
 }
 
 void write_proofs(const ArchiveFile& file, const ProofsOfOrbits& proofs) {
@@ -242,6 +129,22 @@ const char* const names_of_stability[] = {"elliptic", "hyperbolic", "inverse hyp
 
 }  // namespace
 
+template <>
+struct Fields<OrbitExtra> {
+  using E = OrbitExtra;
+  static constexpr std::tuple list{
+      field("hits", "1", "Number of hits", &E::hits),
+      field("maslov", "1", "Maslov index; -1: none", &E::maslov),
+      field("multiplier_real", "1", "The larger eigenvalue of the tangent map", &E::real),
+      field("multiplier_imaginary", "1", "Its imaginary part, not negative", &E::imaginary)};
+};
+template <>
+struct Fields<HitExtra> {
+  static constexpr std::tuple list{
+      field("orbit", "1", "Row of /orbits", &HitExtra::orbit),
+      field("half_turn", "1", "Half the angle that the flight turns by", &HitExtra::half_turn)};
+};
+
 ProofOfOrbit proof_of(const CertifiedPeriodicOrbit& orbit, int digits) {
   ProofOfOrbit proof{orbit.proven, orbit.reason, "", "", "", "", {}, {}};
   if (!orbit.proven) return proof;
@@ -262,48 +165,27 @@ void write_orbits(const std::string& name, const LoadedSystem& loaded, const Pro
   hdf5::silence();
   ArchiveFile file = ArchiveFile::create(aside_of(name), name);
   file.write_head(orbit_archive_kind, loaded, origin);
-  std::vector<PeriodicOrbit> orbits = found.orbits;
-  const Extra extra = extra_of(orbits);
+  const std::vector<PeriodicOrbit>& orbits = found.orbits;
   {
     const Handle group = file.group("orbits", "Periodic orbits, by number of hits and length");
     const hid_t to = group.get();
-    const std::vector<PeriodicOrbit*> rows = pointers(orbits);
-    hdf5::write_column<std::int32_t>(to, "hits", extra.hits, {"1", "Number of hits"}, name);
-    Writer<PeriodicOrbit> writer{to, rows, name};
-    orbit_columns(writer);
-    hdf5::write_column<std::int32_t>(to, "stability", extra.stability,
-                                     {"1", "Index into the attribute `stabilities` of the group"},
-                                     name);
-    hdf5::write_column<std::int32_t>(to, "maslov", extra.maslov, {"1", "Maslov index; -1: none"},
-                                     name);
-    hdf5::write_column<std::int32_t>(to, "family", extra.family, {"1", "1: one member of a family"},
-                                     name);
-    hdf5::write_column<double>(to, "multiplier_real", extra.real,
-                               {"1", "The larger eigenvalue of the tangent map"}, name);
-    hdf5::write_column<double>(to, "multiplier_imaginary", extra.imaginary,
-                               {"1", "Its imaginary part, not negative"}, name);
+    write_columns(to, std::span(orbits), name);
+    write_columns(to, std::span<const OrbitExtra>(extras_of(orbits)), name);
     hdf5::write_attribute(
         to, "stabilities",
         std::vector<std::string>(std::begin(names_of_stability), std::end(names_of_stability)),
         name);
     hdf5::write_attribute(to, "most_hits", most_hits, name);
     hdf5::write_attribute(to, "zeta", std::int64_t{found.cycles.has_value()}, name);
-    for (const Count& count : counts)
-      hdf5::write_attribute(to, count.name, found.*count.value, name);
+    each_field<Fields<OrbitSearchResult>>(
+        [&](const auto& one) { hdf5::write_attribute(to, one.label.name, one.kept(found), name); });
   }
   {
     const Handle group = file.group("orbit_hits", "Hits of each orbit, one after the other");
     const hid_t to = group.get();
-    const std::vector<OrbitHit*> rows = hit_pointers(orbits);
-    hdf5::write_column<std::int32_t>(to, "orbit", extra.orbit, {"1", "Row of /orbits"}, name);
-    Writer<OrbitHit> writer{to, rows, name};
-    hit_columns(writer);
-    hdf5::write_column<double>(to, "half_turn", extra.half_turn,
-                               {"1", "Half the angle that the flight turns by"}, name);
-    hdf5::write_column<std::int64_t>(to, "step_first", extra.step_first,
-                                     {"1", "Cells to the next hit, along the first vector"}, name);
-    hdf5::write_column<std::int64_t>(to, "step_second", extra.step_second,
-                                     {"1", "Cells to the next hit, along the second vector"}, name);
+    const FlatHits all = flat(orbits);
+    write_columns(to, std::span<const OrbitHit>(all.hits), name);
+    write_columns(to, std::span<const HitExtra>(all.extras), name);
     std::vector<std::string> walls;
     for (const Wall& wall : loaded.system.table->walls) walls.push_back(wall.name);
     hdf5::write_attribute(to, "names", walls, name);
@@ -330,44 +212,30 @@ StoredOrbits read_orbits(const std::string& name) {
   std::vector<PeriodicOrbit>& orbits = stored.result.orbits;
   const Handle group = opened("orbits");
   const hid_t from = group.get();
-  const auto hits = hdf5::read_column<std::int32_t>(from, "hits", name);
-  for (const std::int32_t n : hits) {
-    orbits.emplace_back();
-    orbits.back().hits.resize(static_cast<std::size_t>(n));
-  }
-  const std::vector<PeriodicOrbit*> rows = pointers(orbits);
-  Reader<PeriodicOrbit> reader{from, rows, name};
-  orbit_columns(reader);
-  const auto stability = hdf5::read_column<std::int32_t>(from, "stability", name);
-  const auto maslov = hdf5::read_column<std::int32_t>(from, "maslov", name);
-  const auto family = hdf5::read_column<std::int32_t>(from, "family", name);
-  const auto real = hdf5::read_column<double>(from, "multiplier_real", name);
-  const auto imaginary = hdf5::read_column<double>(from, "multiplier_imaginary", name);
+  orbits = read_all_rows<PeriodicOrbit>(from, name);
+  const auto extras = read_all_rows<OrbitExtra>(from, name);
   const Handle hit_group = opened("orbit_hits");
-  const std::vector<OrbitHit*> hit_rows = hit_pointers(orbits);
-  Reader<OrbitHit> hit_reader{hit_group.get(), hit_rows, name};
-  hit_columns(hit_reader);
-  const auto half = hdf5::read_column<double>(hit_group.get(), "half_turn", name);
-  const auto first = hdf5::read_column<std::int64_t>(hit_group.get(), "step_first", name);
-  const auto second = hdf5::read_column<std::int64_t>(hit_group.get(), "step_second", name);
+  const auto hits = read_all_rows<OrbitHit>(hit_group.get(), name);
+  const auto hit_extras = read_all_rows<HitExtra>(hit_group.get(), name);
   std::size_t row = 0;
   for (std::size_t i = 0; i < orbits.size(); ++i) {
     PeriodicOrbit& o = orbits[i];
-    o.stability = static_cast<Stability>(stability.at(i));
-    if (maslov.at(i) != no_index) o.maslov = maslov.at(i);
-    o.family = family.at(i) != 0;
-    const std::complex<double> large(real.at(i), imaginary.at(i));
+    const OrbitExtra& extra = extras.at(i);
+    if (extra.maslov != no_index) o.maslov = extra.maslov;
+    const std::complex<double> large(extra.real, extra.imaginary);
     o.multipliers[0] = large;
     o.multipliers[1] = large.imag() != 0.0 ? std::conj(large) : 1.0 / large;
-    for (OrbitHit& hit : o.hits) {
-      hit.step = {first.at(row), second.at(row)};
-      o.shift = {o.shift.first + hit.step.first, o.shift.second + hit.step.second};
-      o.half_turns.push_back(half.at(row++));
+    for (std::int32_t n = 0; n < extra.hits; ++n, ++row) {
+      o.hits.push_back(hits.at(row));
+      o.half_turns.push_back(hit_extras.at(row).half_turn);
+      const geometry::Cell step = o.hits.back().step;
+      o.shift = {o.shift.first + step.first, o.shift.second + step.second};
     }
   }
-  for (const Count& count : counts)
-    stored.result.*count.value =
-        static_cast<std::uint64_t>(hdf5::read_integer_attribute(from, count.name, name));
+  each_field<Fields<OrbitSearchResult>>([&](const auto& one) {
+    one.set(stored.result,
+            static_cast<std::uint64_t>(hdf5::read_integer_attribute(from, one.label.name, name)));
+  });
   stored.most_hits =
       static_cast<std::uint64_t>(hdf5::read_integer_attribute(from, "most_hits", name));
   // The expansion is made of the orbits again: the same bits.
