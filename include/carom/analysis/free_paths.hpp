@@ -65,6 +65,27 @@ struct FreePathBin {
   Estimate longer;   ///< share of those that are at least `from` long
 };
 
+template <>
+struct Fields<FreePathBin> {
+  using B = FreePathBin;
+  static constexpr std::tuple list{
+      field("from", "length", "Start of the bin", &B::from),
+      field("to", "length", "End of the bin", &B::to),
+      field("count", "1", "Flights of from <= length < to", &B::count),
+      field_as<double>(
+          "density", "1/length", "Share of all flights, per length",
+          [](auto& b) -> auto& { return b.density.value; }),
+      field_as<double>(
+          "density_stderr", "1/length", "Its standard error",
+          [](auto& b) -> auto& { return b.density.error; }),
+      field_as<double>(
+          "longer", "1", "Share of the flights that are at least `from` long",
+          [](auto& b) -> auto& { return b.longer.value; }),
+      field_as<double>(
+          "longer_stderr", "1", "Its standard error",
+          [](auto& b) -> auto& { return b.longer.error; })};
+};
+
 /// Between two lengths, a factor of four apart, of which the longer one is exceeded by at least
 /// 100 flights and the shorter one is 16 mean lengths or more.
 struct FreePathTail {

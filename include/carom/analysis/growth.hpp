@@ -163,6 +163,14 @@ struct ExponentBin {
   double from, to;
   std::uint64_t count;
 };
+template <>
+struct Fields<ExponentBin> {
+  using B = ExponentBin;
+  static constexpr std::tuple list{
+      field("bin_from", "1/time", "Finite-time exponents: start of the bin", &B::from),
+      field("bin_to", "1/time", "Its end", &B::to),
+      field("bin_count", "1", "Orbits with an exponent in it", &B::count)};
+};
 std::vector<ExponentBin> distribution_of(const GrowthSums&);
 /// Below which a share `q` of the orbits lies, exponents spread evenly within each bin; NaN without
 /// orbits.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "carom/base/exact_sum.hpp"
+#include "carom/base/fields.hpp"
 
 namespace carom {
 
@@ -66,6 +67,43 @@ struct MomentPoint {
   /// the first and for t = 0.
   double middle = 0.0;
   Estimate exponent;
+};
+
+template <>
+struct Fields<MomentPoint> {
+  using P = MomentPoint;
+  static constexpr const char* error = "Its standard error";
+  static constexpr std::tuple list{
+      field("t", "time", "Time", &P::t),
+      field("count", "1", "Particles there at t", &P::count),
+      field_as<double>(
+          "value", "length^2", "Mean square displacement",
+          [](auto& p) -> auto& { return p.square.value; }),
+      field_as<double>(
+          "stderr", "length^2", error, [](auto& p) -> auto& { return p.square.error; }),
+      field_as<double>(
+          "fourth", "length^4", "Mean fourth power of the displacement",
+          [](auto& p) -> auto& { return p.fourth.value; }),
+      field_as<double>(
+          "fourth_stderr", "length^4", error, [](auto& p) -> auto& { return p.fourth.error; }),
+      field_as<double>(
+          "correlation", "length^2/time^2", "Velocity autocorrelation <v(t).v(0)>",
+          [](auto& p) -> auto& { return p.correlation.value; }),
+      field_as<double>(
+          "correlation_stderr", "length^2/time^2", error,
+          [](auto& p) -> auto& { return p.correlation.error; }),
+      field_as<double>(
+          "green_kubo", "length^2/time",
+          "Half the integral of the velocity autocorrelation from 0 to t",
+          [](auto& p) -> auto& { return p.green_kubo.value; }),
+      field_as<double>(
+          "green_kubo_stderr", "length^2/time", error,
+          [](auto& p) -> auto& { return p.green_kubo.error; }),
+      field_as<double>(
+          "exponent", "1", "d ln MSD / d ln t since the time before; NaN where there is none",
+          [](auto& p) -> auto& { return p.exponent.value; }),
+      field_as<double>(
+          "exponent_stderr", "1", error, [](auto& p) -> auto& { return p.exponent.error; })};
 };
 
 /// Report times t with from <= t <= to.

@@ -84,6 +84,33 @@ struct SurvivalHitsPoint {
 struct RatePoint {
   double t, from, to, value, low, high;
 };
+template <>
+struct Fields<SurvivalPoint> {
+  using P = SurvivalPoint;
+  static constexpr std::tuple list{field("t", "time", "Time", &P::t),
+                                   field("p", "1", "Share still there after t", &P::p),
+                                   field("low", "1", "95 % interval, low end", &P::low),
+                                   field("high", "1", "95 % interval, high end", &P::high)};
+};
+template <>
+struct Fields<SurvivalHitsPoint> {
+  using P = SurvivalHitsPoint;
+  static constexpr std::tuple list{field("n", "1", "Reflections", &P::n),
+                                   field("p", "1", "Share still there after n hits", &P::p),
+                                   field("low", "1", "95 % interval, low end", &P::low),
+                                   field("high", "1", "95 % interval, high end", &P::high)};
+};
+template <>
+struct Fields<RatePoint> {
+  using P = RatePoint;
+  static constexpr std::tuple list{field("t", "time", "Middle of the interval", &P::t),
+                                   field("from", "time", "Start of the interval", &P::from),
+                                   field("to", "time", "End of the interval", &P::to),
+                                   field("value", "1/time", "Escape rate", &P::value),
+                                   field("low", "1/time", "95 % interval, low end", &P::low),
+                                   field("high", "1/time", "95 % interval, high end", &P::high)};
+};
+
 /// Share `p` that left through a hole, with its 95 % interval.
 struct ExitPoint {
   double p, low, high;

@@ -30,6 +30,29 @@ struct RepellerExponent {
   bool kicks_cost() const { return is_certain(kick_cost, per_time.repetitions); }
 };
 
+/// But for the quantities that are extrapolated.
+template <>
+struct Fields<RepellerExponent> {
+  using R = RepellerExponent;
+  static constexpr std::tuple list{
+      field("kick", "1", "The largest kick of copies, of v_parallel / v", &R::kick),
+      field_as<double>(
+          "kick_cost", "1", "Share of those left that kicks add",
+          [](auto& r) -> auto& { return r.kick_cost.value; }),
+      field_as<double>(
+          "kick_cost_stderr", "1", "Its standard error",
+          [](auto& r) -> auto& { return r.kick_cost.error; }),
+      field("time_from", "time", "Mean time at the start of the window", &R::time_from),
+      field("time_to", "time", "Mean time at its end", &R::time),
+      field("for_ever", "1", "Share of the starts that can never leave", &R::for_ever),
+      field("population", "1", "Trajectories of each population", &R::population),
+      field("hits_from", "1", "Hits at the start of the window", &R::hits_from),
+      field("hits_to", "1", "Hits at its end", &R::hits),
+      field_as<std::uint64_t>(
+          "repetitions", "1", "Independent populations at each of three kicks",
+          [](auto& r) -> auto& { return r.per_time.repetitions; })};
+};
+
 /// Can a particle leave this system, and is it one that is free?
 bool is_open(const System&);
 /// How many trajectories populations take at least.

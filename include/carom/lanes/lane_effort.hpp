@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "carom/base/fields.hpp"
+
 namespace carom {
 
 /// Counts of what lanes did.
@@ -31,6 +33,17 @@ struct LaneEffort {
   friend LaneEffort operator-(const LaneEffort& a, const LaneEffort& b) {
     return {a.hits - b.hits, a.scalar - b.scalar, a.steps - b.steps, a.idle - b.idle};
   }
+};
+
+/// Attributes of /provenance.
+template <>
+struct Fields<LaneEffort> {
+  using E = LaneEffort;
+  static constexpr std::tuple list{
+      field("lanes_hits", "1", "Hits decided and made in lanes", &E::hits),
+      field("lanes_left", "1", "Hits and ends left to the scalar engine", &E::scalar),
+      field("lanes_steps", "1", "Steps of single lanes", &E::steps),
+      field("lanes_idle", "1", "Of these, those that stood idle", &E::idle)};
 };
 
 }  // namespace carom

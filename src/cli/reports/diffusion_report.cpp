@@ -11,6 +11,8 @@
 #include "cli/reports/doubts.hpp"
 #include "cli/reports/free_paths_report.hpp"
 #include "cli/reports/starts_report.hpp"
+#include "ensemble/describe/diffusion.hpp"
+#include "io/describe/json_out.hpp"
 
 namespace carom::cli {
 
@@ -182,16 +184,11 @@ Json result_json(const System& system, const DiffusionResult& result,
                  const EnsembleContext& context) {
   const DiffusionSummary summary = summary_of(system, result);
   Json json = ensemble_json(system, result, context);
-  json.set("trajectories", result.trajectories);
-  add_fates(json, result);
-  json.set("collisions", result.collisions);
-  if (system.of_discs()) json.set("contacts", result.contacts);
-  if (engine_of(system) != "events")
-    json.set("energy_change", result.energy_change)
-        .set("energy_error", energy_json(result.energy_error));
+  io::JsonOut out(json);
+  ensemble::describe(out, result, system);
+  if (ensemble::has_forces(system)) json.set("energy_change", result.energy_change);
   add_steps(json, system, result.steps);
   add_reports(json, result.reports);
-  json.set("digest", fmt::format("{:016x}", result.digest));
   add_starts(json, system);
   json.set("decisions", decisions_json(result.decisions));
   if (const std::string none = why_one_by_one(system); !none.empty()) json.set("no_lanes", none);

@@ -15,6 +15,8 @@
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/decay_report.hpp"
 #include "cli/reports/doubts.hpp"
+#include "ensemble/describe/escape.hpp"
+#include "io/describe/json_out.hpp"
 
 namespace carom::cli {
 
@@ -115,16 +117,10 @@ std::string why_no_error(const SurvivalCounts& counts) {
 Json result_json(const System& system, const EscapeResult& result, const EnsembleContext& context) {
   const SurvivalCounts& counts = result.counts;
   Json json = ensemble_json(system, result, context);
-  json.set("trajectories", counts.trajectories);
-  add_fates(json, counts);
-  json.set("collisions", counts.collisions);
-  if (system.of_discs()) json.set("contacts", counts.contacts);
-  if (engine_of(system) != "events")
-    json.set("energy_change", counts.energy_change)
-        .set("energy_error", energy_json(result.energy_error));
+  io::JsonOut out(json);
+  ensemble::describe(out, result, system);
   add_steps(json, system, result.steps);
   add_reports(json, result.reports);
-  json.set("digest", fmt::format("{:016x}", result.digest));
   json.set("decisions", decisions_json(result.decisions));
   if (const std::string none = why_one_by_one(system); !none.empty())
     json.set("lanes", Json()).set("no_lanes", none);
@@ -144,24 +140,8 @@ Json result_json(const System& system, const EscapeResult& result, const Ensembl
                    .set("low", by_hole[i].low)
                    .set("high", by_hole[i].high));
   json.set("holes", std::move(holes));
-  Json by_time = Json::array(), by_hits = Json::array(), rates = Json::array();
-  for (const auto& [t, p, low, high] : survival(counts))
-    by_time.push(Json::object().set("t", t).set("p", p).set("low", low).set("high", high));
-  for (const auto& [n, p, low, high] : survival_by_hits(counts))
-    by_hits.push(Json::object().set("n", n).set("p", p).set("low", low).set("high", high));
-  for (const auto& [t, from, to, value, low, high] : escape_rate(counts))
-    rates.push(Json::object()
-                   .set("t", t)
-                   .set("from", from)
-                   .set("to", to)
-                   .set("value", value)
-                   .set("low", low)
-                   .set("high", high));
   if (!counts.parts.empty()) json.set("replicates", counts.parts.size());
   if (const std::string none = why_no_error(counts); !none.empty()) json.set("no_errors", none);
-  json.set("survival", std::move(by_time));
-  json.set("survival_hits", std::move(by_hits));
-  json.set("rate", std::move(rates));
   json.set("fit", decay_json(decay_of(system, result)));
   json.set("fit_hits", decay_json(fit_decay_by_hits(counts)));
   if (const std::string note = repeated_starts(system); !note.empty()) json.set("note", note);

@@ -14,6 +14,8 @@
 #include "cli/reports/doubts.hpp"
 #include "cli/reports/spectrum_report.hpp"
 #include "cli/reports/starts_report.hpp"
+#include "ensemble/describe/lyapunov.hpp"
+#include "io/describe/json_out.hpp"
 
 namespace carom::cli {
 
@@ -315,14 +317,10 @@ Json result_json(const System& system, const LyapunovResult& result,
   const LyapunovEstimate e = estimate_of(system, result);
   const std::string reason = no_exponent(system, result, e);
   Json json = ensemble_json(system, result, context);
-  json.set("trajectories", result.trajectories).set("orbits", sums.totals().orbits);
-  add_fates(json, result);
-  json.set("collisions", result.collisions);
-  if (system.of_discs()) json.set("contacts", result.contacts);
+  io::JsonOut out(json);
+  ensemble::describe(out, result, system);
   add_reports(json, result.reports);
-  json.set("digest", fmt::format("{:016x}", result.digest));
   json.set("decisions", decisions_json(result.decisions));
-  if (engine_of(system) != "events") json.set("energy_error", energy_json(result.energy_error));
   add_steps(json, system, result.steps);
   if (const std::string none =
           why_one_by_one(system, {.deviations = {1.0}, .frame = system.run.spectrum});

@@ -7,6 +7,8 @@
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
+#include "ensemble/describe/ends.hpp"
+#include "io/describe/json_out.hpp"
 
 namespace carom::cli {
 
@@ -51,14 +53,10 @@ Json section_json(const System& system, const SectionResult& result, const std::
   Json json = Json::object();
   add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds);
   json.set("status", status);
-  json.set("points", result.points);
-  json.set("orbits", result.orbits);
-  json.set("incomplete", result.incomplete);
-  add_fates(json, result);
-  json.set("collisions", result.collisions);
-  json.set("digest", fmt::format("{:016x}", result.digest));
+  io::add_numbers(json, result);
+  io::add_numbers<FateCounts>(json, result);
   json.set("decisions", decisions_json(result.decisions));
-  if (engine_of(system) != "events") json.set("energy_error", energy_json(result.energy_error));
+  if (ensemble::is_integrated(system)) io::add_numbers(json, result.energy_error);
   add_steps(json, system, result.steps);
   add_reports(json, result.reports);
   if (!output.empty()) json.set("archive", output);

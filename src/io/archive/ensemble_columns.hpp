@@ -24,32 +24,14 @@ void check_stored(const StoredEnsemble&, const LyapunovResult&, const System&);
 void write_done(const ArchiveFile&, const EnsembleResult&);
 void read_done(hid_t file, const std::string& name, EnsembleResult&);
 
-/// The counts and the digest.
-void write_counts(const ArchiveFile&, const EscapeResult&, const System&);
-void read_counts(hid_t file, const std::string& name, EscapeResult&);
-void write_counts(const ArchiveFile&, const DiffusionResult&, const System&);
-void read_counts(hid_t file, const std::string& name, DiffusionResult&);
-void write_counts(const ArchiveFile&, const LyapunovResult&, const System&);
-void read_counts(hid_t file, const std::string& name, LyapunovResult&);
+/// What describe() says of it.
+template <class Result>
+void write_counts(const ArchiveFile&, const Result&, const System&);
+template <class Result>
+void read_counts(hid_t file, const std::string& name, Result&);
 
-/// The fates of /fates. Read, they add up to `all` particles: InputError where they do not.
-void write_fates(const hdf5::Handle& fates, const FateCounts&, const std::string& name);
+/// The fates of /fates add up to `all` particles: InputError where they do not.
 FateCounts read_fates(const hdf5::Handle& fates, const std::string& name, std::uint64_t all);
-/// What /fates holds of ensembles whose particles are counted one by one, besides the fates.
-struct EnsembleNumbers {
-  std::uint64_t particles = 0;  ///< of all trajectories
-  std::uint64_t collisions = 0, digest = 0;
-  std::optional<std::uint64_t> contacts = {};  ///< of hard discs
-};
-void write_ends(const hdf5::Handle& fates, const FateCounts&, const EnsembleNumbers&,
-                const std::string& name);
-EnsembleNumbers read_ends(const hdf5::Handle& fates, const std::string& name, FateCounts&);
-
-/// Is motion integrated anywhere?
-inline bool is_integrated(const System& system) {
-  const Dynamics& d = system.dynamics;
-  return d.everywhere || (d.forces && !d.forces->empty());
-}
 /// What integration has cost, and how well energies were kept; archives of earlier builds have none
 /// of it.
 void write_integration(hid_t fates, const StepCounts&, const EnergyError&, const std::string& name);

@@ -8,6 +8,7 @@
 #include "carom/ensemble/run_rows.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/geometry/curve_frame.hpp"
+#include "ensemble/describe/ends.hpp"
 #include "io/archive/archive_file.hpp"
 #include "io/archive/checksums.hpp"
 #include "io/archive/ensemble_columns.hpp"
@@ -101,7 +102,7 @@ void RunArchive::Implementation::create(const LoadedSystem& loaded, const Proven
     const Handle group = file.group("energy", "Sums over the particles at each sample's time");
     energies.create(group.get());
   }
-  if (is_integrated(loaded.system)) {
+  if (ensemble::is_integrated(loaded.system)) {
     const Handle group = file.group("steps", "What integration has cost");
     create_columns<StepCounts>(group.get(), 1, file.name());
     create_columns<Evaluations>(group.get(), 1, file.name());

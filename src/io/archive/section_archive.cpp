@@ -1,6 +1,7 @@
 #include <span>
 #include <utility>
 
+#include "ensemble/describe/ends.hpp"
 #include "io/archive/archive_file.hpp"
 #include "io/archive/ensemble_columns.hpp"
 #include "io/archive/fields.hpp"
@@ -17,7 +18,7 @@ class SectionArchive::Implementation {
       : target(path),
         file(ArchiveFile::create(aside_of(path), path)),
         rows(path),
-        integrated(is_integrated(loaded.system)) {
+        integrated(ensemble::is_integrated(loaded.system)) {
     file.write_head(section_archive_kind, loaded, origin);
     const System& system = loaded.system;
     const Handle group =
@@ -55,7 +56,7 @@ void SectionArchive::finish(const SectionResult& result, const std::string& stat
   {
     const Handle group = a.file.group("fates", "Numbers of orbits");
     write_numbers(group.get(), result, a.target);
-    write_fates(group, result, a.target);
+    write_numbers<FateCounts>(group.get(), result, a.target);
     if (a.integrated) write_integration(group.get(), result.steps, result.energy_error, a.target);
     const Handle provenance = a.file.open_group("provenance");
     hdf5::change_attribute(provenance.get(), "threads", std::int64_t{result.threads}, a.target);

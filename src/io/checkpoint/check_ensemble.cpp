@@ -15,6 +15,11 @@ namespace carom::io {
 
 namespace {
 
+template <class Numbers>
+std::uint64_t sum_of(const Numbers& numbers) {
+  return std::accumulate(numbers.begin(), numbers.end(), std::uint64_t{0});
+}
+
 // `trajectories`: those that are counted, each particle once.
 void check_common(const StoredEnsemble& stored, const EnsembleResult& result,
                   std::uint64_t trajectories, const char* where, const System& system) {
@@ -88,9 +93,16 @@ void check_stored(const StoredEnsemble& stored, const EscapeResult& result, cons
   check_times(stored, counts.times, "/survival/t", system);
   if (counts.hole_escapes.size() != hole_names(*system.table).size())
     damaged(stored.file, "'/fates/holes' are not the holes of '/system'");
-  if (std::accumulate(counts.hole_escapes.begin(), counts.hole_escapes.end(), std::uint64_t{0}) !=
-      counts.escaped - counts.unbounded)
+  if (sum_of(counts.hole_escapes) != counts.escaped - counts.unbounded)
     damaged(stored.file, "'/fates/holes' and '/fates/unbounded' do not add up to '/fates/escaped'");
+  const auto at_most_escaped = [&](std::uint64_t gone, const char* where) {
+    if (gone > counts.escaped)
+      damaged(stored.file, fmt::format("'/{}/gone' has more than '/fates'", where));
+  };
+  at_most_escaped(sum_of(counts.gone_in), "survival");
+  at_most_escaped(sum_of(counts.gone_in_hits), "survival_hits");
+  at_most_escaped(counts.gone_at.total(), "escape_times");
+  at_most_escaped(counts.gone_after.total(), "escape_hits");
   const std::uint64_t mean = counts.trajectories == 0 ? 0 : counts.collisions / counts.trajectories;
   if (counts.most_hits > counts.collisions || mean > counts.most_hits)
     damaged(stored.file, "'/fates/collisions' and '/fates/most_hits' contradict each other");
@@ -142,9 +154,7 @@ void check_stored(const StoredEnsemble& stored, const LyapunovResult& result,
       (system.quasi_random() && (orbits != totals.orbits || chaotic != totals.chaotic)))
     damaged(stored.file, "'/lyapunov_sums/replicate_counts' do not add up to its orbits");
   const auto& bins = totals.distribution.counts();
-  if (std::accumulate(bins.begin(), bins.end(), std::uint64_t{0}) != totals.orbits ||
-      std::accumulate(totals.chaotic_at.begin(), totals.chaotic_at.end(), std::uint64_t{0}) !=
-          totals.chaotic)
+  if (sum_of(bins) != totals.orbits || sum_of(totals.chaotic_at) != totals.chaotic)
     damaged(stored.file, "the bins of '/lyapunov_sums' do not add up to its orbits");
 }
 
