@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/numbers.hpp"
 #include "carom/base/elementary.hpp"
 
 namespace carom {
 
 namespace {
 
+using analysis::root;
+
 constexpr double log_four = 1.3862943611198906;
 constexpr double significant = 2.5, agrees = 2.0;  // errors
-
-double root(double square) { return std::sqrt(std::max(0.0, square)); }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include "analysis/numbers.hpp"
 #include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"
 
@@ -12,8 +13,9 @@ namespace carom {
 
 namespace {
 
+using analysis::nan;
+
 constexpr std::size_t groups = FreePathSums::groups;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 void add(FreePathSums::Flights& flights, double length, double limit) {
   if (length < limit)

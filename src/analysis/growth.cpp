@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "analysis/numbers.hpp"
 #include "base/student.hpp"
 #include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"
@@ -14,7 +15,9 @@ namespace carom {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using analysis::nan;
+using analysis::normal_quantile;
+using analysis::root;
 
 // On an invariant curve deviations grow by shear, |w1| |w2| = (C flights)^2. C is of order one but
 // near a separatrix: there an orbit at the distance d of it may pass for chaotic if 1/d^2 > C^2.
@@ -28,7 +31,6 @@ std::uint64_t blocks_for(std::uint64_t orbits) {
              : std::bit_ceil(GrowthSums::wanted_blocks / std::max<std::uint64_t>(1, orbits));
 }
 
-double root(double square) { return std::sqrt(std::max(0.0, square)); }
 // Two independent errors.
 double both(double a, double b) { return std::sqrt(a * a + b * b); }
 
@@ -208,7 +210,6 @@ namespace {
 
 // Half of the width of an interval of 95 % in standard errors, of a normal distribution and of
 // Student's with m numbers: errors of few numbers are given so much larger that 1.96 of them hold.
-constexpr double normal_quantile = 1.959963984540054;
 double student_factor(std::uint64_t m) {
   return base::student_quantile(0.975, static_cast<double>(m - 1)) / normal_quantile;
 }

@@ -4,14 +4,14 @@
 #include <array>
 #include <cmath>
 
+#include "analysis/numbers.hpp"
 #include "carom/base/error.hpp"
 
 namespace carom {
 
 namespace {
 
-// The 0.975 quantile of the normal distribution.
-constexpr double normal_quantile = 1.959963984540054;
+using analysis::normal_quantile;
 
 // n trials, of which k succeed and `missed` do not; any numbers, not whole ones alone.
 Interval wilson(double k, double missed, double n, double quantile) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "analysis/numbers.hpp"
 #include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"
 
@@ -12,7 +13,7 @@ namespace carom {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using analysis::nan;
 
 struct Line {
   double slope, offset;

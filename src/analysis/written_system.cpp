@@ -9,35 +9,35 @@ using geometry::Vector;
 
 namespace {
 
-TwofoldVector exactly(Vector v) { return {v.x, v.y}; }
+TwofoldVector as_twofold(Vector v) { return {v.x, v.y}; }
 
 // docs of geometry/curve.hpp: how the centre of an arc follows from its ends.
 struct AsStored {
   WallOf<Twofold> operator()(const geometry::Segment& s) const {
-    return certify::segment_wall(exactly(s.from), exactly(s.to));
+    return certify::segment_wall(as_twofold(s.from), as_twofold(s.to));
   }
   WallOf<Twofold> operator()(const geometry::Circle& s) const {
-    return certify::circle_wall(exactly(s.centre), Twofold(s.radius), s.counterclockwise);
+    return certify::circle_wall(as_twofold(s.centre), Twofold(s.radius), s.counterclockwise);
   }
   WallOf<Twofold> operator()(const geometry::Ellipse& s) const {
-    return certify::ellipse_wall(exactly(s.centre), exactly(s.axis), Twofold(s.ratio),
+    return certify::ellipse_wall(as_twofold(s.centre), as_twofold(s.axis), Twofold(s.ratio),
                                  s.counterclockwise);
   }
   WallOf<Twofold> operator()(const geometry::CircularArc& s) const {
-    const TwofoldVector from = exactly(s.from), chord = exactly(s.to) - from;
+    const TwofoldVector from = as_twofold(s.from), chord = as_twofold(s.to) - from;
     const TwofoldVector to_centre = Twofold(0.5) * chord + Twofold(s.offset) * left(chord);
-    return certify::arc_wall(from, exactly(s.to), from + to_centre, dot(to_centre, to_centre),
+    return certify::arc_wall(from, as_twofold(s.to), from + to_centre, dot(to_centre, to_centre),
                              s.counterclockwise);
   }
   WallOf<Twofold> operator()(const geometry::EllipticArc& s) const {
-    const TwofoldVector from = exactly(s.from), chord = exactly(s.to) - from, p = exactly(s.axis),
-                        q = left(p);
+    const TwofoldVector from = as_twofold(s.from), chord = as_twofold(s.to) - from,
+                        p = as_twofold(s.axis), q = left(p);
     const Twofold k(s.ratio);
     const TwofoldVector turned = -dot(chord, q) * p + (k * k * dot(chord, p)) * q;
     const TwofoldVector to_centre = Twofold(0.5) * chord + Twofold(s.offset) * turned;
     const Twofold x = k * dot(p, to_centre), y = dot(q, to_centre);
     const TwofoldVector semi_axis = (sqrt(x * x + y * y) / (k * dot(p, p))) * p;
-    return certify::elliptic_arc_wall(from, exactly(s.to), from + to_centre, semi_axis, k,
+    return certify::elliptic_arc_wall(from, as_twofold(s.to), from + to_centre, semi_axis, k,
                                       s.counterclockwise);
   }
 };
@@ -49,7 +49,7 @@ WrittenSystem as_stored(const Table& table, const Particle& particle) {
   for (const Wall& wall : table.walls)
     written.table.walls.push_back(std::visit(AsStored{}, wall.curve));
   if (table.lattice)
-    written.table.lattice = {exactly(table.lattice->first), exactly(table.lattice->second)};
+    written.table.lattice = {as_twofold(table.lattice->first), as_twofold(table.lattice->second)};
   written.omega = particle.omega;
   written.speed = particle.speed;
   return written;

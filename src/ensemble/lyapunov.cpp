@@ -35,7 +35,7 @@ GrowthSums plan_of(const System& system) {
           system.quasi_random()};
 }
 
-void refuse_impossible(const System& system) {
+void refuse_no_exponents(const System& system) {
   const Dynamics& d = system.dynamics;
   const bool forces = d.everywhere || (d.forces && !d.forces->empty());
   if (forces && is_adaptive(d.integrator.scheme))
@@ -210,7 +210,7 @@ std::optional<InputError> why_nothing(const System& system, const LyapunovResult
 }
 
 LyapunovResult run_lyapunov(const System& system, const LyapunovOptions& options) {
-  refuse_impossible(system);
+  refuse_no_exponents(system);
   const System flow = with_starts_of_the_flow(system);
   check_start(flow, options.interrupted);
   const Sampler sampler(flow, options.interrupted);

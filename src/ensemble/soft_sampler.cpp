@@ -24,10 +24,11 @@ namespace {
 /// Draws until a start below the energy is found: rarer ones are reported as impossible.
 constexpr std::int64_t most_draws = 100'000;
 /// Pairs of interacting particles whose energy is computed in all draws, some nanoseconds each.
-constexpr double most_pairs = 1e8;
+constexpr double most_pairs_of_sampling = 1e8;
 std::int64_t most_draws_of_all(std::size_t particles) {
   const double n = static_cast<double>(particles), pairs = 0.5 * n * (n - 1.0);
-  return std::clamp<std::int64_t>(static_cast<std::int64_t>(most_pairs / pairs), 4, most_draws);
+  return std::clamp<std::int64_t>(static_cast<std::int64_t>(most_pairs_of_sampling / pairs), 4,
+                                  most_draws);
 }
 
 Vector with_speed(Vector velocity, double speed) {

@@ -82,9 +82,9 @@ struct Shared {
 };
 
 // One thread's populations.
-class Worker {
+class SplittingWorker {
  public:
-  Worker(Population population, const SplittingOptions& options, Shared& shared)
+  SplittingWorker(Population population, const SplittingOptions& options, Shared& shared)
       : population_(std::move(population)), options_(options), shared_(shared) {}
 
   bool run(std::uint64_t, std::uint64_t first, std::uint64_t end,
@@ -132,10 +132,10 @@ bool follow(const Setting& s, const SplittingPlan& plan, const BlockPlan& blocks
   return run_blocks(
       blocks, options.interrupted,
       [&] {
-        return Worker(Population(s.system, s.sampler, s.world, s.kick, plan, s.at, options),
-                      options, shared);
+        return SplittingWorker(
+            Population(s.system, s.sampler, s.world, s.kick, plan, s.at, options), options, shared);
       },
-      [](Worker& worker) { worker.finish(); });
+      [](SplittingWorker& worker) { worker.finish(); });
 }
 
 /// The kick of a plan that leaves it open (docs/physics/rare-events.md), by small populations. What

@@ -20,7 +20,7 @@ using ensemble::displacement;
 using ensemble::rounding_of_evaluation;
 using ensemble::size_of_positions;
 
-constexpr int looks = 64;
+constexpr int compared_times = 64;
 /// Two runs have separated where they are further from each other than this share of the way that
 /// they have gone.
 constexpr double separated = 0.1;
@@ -66,7 +66,7 @@ std::optional<StateError> state_error(const System& system, std::uint64_t trajec
   const Sampler sampler(system, stopped);
   add_starts(as_run, sampler, trajectory);
   add_starts(finely, sampler, trajectory);
-  const double size = size_of_positions(system, as_run, t_end / looks),
+  const double size = size_of_positions(system, as_run, t_end / compared_times),
                tail = system.dynamics.forces->tail_bound();
   add_displaced(displaced, as_run, size);
   const int count = as_run.size();
@@ -85,8 +85,8 @@ std::optional<StateError> state_error(const System& system, std::uint64_t trajec
   double evaluated = 0.0,
          rounded = 0.0;  // evaluations; each over the square of the growth before it
   Observer observer;
-  for (int look = 1; look <= looks; ++look) {
-    const double t = t_end * look / looks;
+  for (int look = 1; look <= compared_times; ++look) {
+    const double t = t_end * look / compared_times;
     as_run.run_until(t, observer, stopped);
     finely.run_until(t, observer, stopped);
     displaced.run_until(t, observer, stopped);
@@ -126,7 +126,7 @@ std::optional<StateError> state_error(const System& system, std::uint64_t trajec
         is_adaptive(system.dynamics.integrator.scheme) ? margin_of_adaptive : margin;
     error.position += times * most.position;
     error.velocity += times * most.velocity;
-    if (look == looks && !reached.empty()) {
+    if (look == compared_times && !reached.empty()) {
       StateError parts;
       for (int i = 0; i < count; ++i) {
         const State a = state_of(as_run, i, t), b = reached[static_cast<std::size_t>(i)];

@@ -5,7 +5,7 @@
 namespace carom::certify {
 namespace {
 
-constexpr double guard_bits = 32.0;  ///< what rounding may stay below the error that is there
+constexpr double line_guard_bits = 32.0;  ///< what rounding may stay below the error that is there
 
 /// (x + iy)(c + is) by three products.
 BallVector turned(const BallVector& v, const Ball& c, const Ball& s) {
@@ -176,6 +176,6 @@ BallState LineEnclosure::state(long bits) const {
   return seen(wall_ < 0 ? LineWall{} : lines_->walls[static_cast<std::size_t>(wall_)], ahead);
 }
 
-double LineEnclosure::useful_bits() const { return guard_bits - line_error().log2(); }
+double LineEnclosure::useful_bits() const { return line_guard_bits - line_error().log2(); }
 
 }  // namespace carom::certify

@@ -5,7 +5,7 @@
 namespace carom::certify {
 namespace {
 
-constexpr double guard_bits = 40.0;  ///< what rounding may stay below the error that is there
+constexpr double point_guard_bits = 40.0;  ///< what rounding may stay below the error that is there
 
 Interval point(const Ball& x) { return interval_of(x.midpoint()); }
 VectorOf<Interval> point(const BallVector& v) { return {point(v.x), point(v.y)}; }
@@ -138,7 +138,7 @@ double PointEnclosure::useful_bits() const {
   const geometry::Vector P = near(state_.position);
   const double size = std::max({1.0, std::fabs(P.x) / arena_->unit, std::fabs(P.y) / arena_->unit,
                                 std::fabs(state_.time.to_double()) / arena_->time_unit});
-  return -error().log2() + guard_bits + std::log2(size);
+  return -error().log2() + point_guard_bits + std::log2(size);
 }
 
 }  // namespace carom::certify

@@ -8,8 +8,7 @@
 #include "carom/ensemble/compare.hpp"
 #include "io/archive/fields.hpp"
 
-namespace carom {
-namespace io {
+namespace carom::io {
 
 /// A run, with the index of its scheme and of its failure (0: none).
 struct StoredRunRow : ComparedRun {
@@ -22,7 +21,9 @@ struct StoredSchemeRow {
   double areas = 0.0, areas_error = 0.0, areas_step = 0.0;
   double work_step = 0.0, work_tolerance = 0.0, work_evaluations = 0.0, work_cpu = 0.0;
 };
-}  // namespace io
+}  // namespace carom::io
+
+namespace carom {
 
 template <>
 struct Fields<Comparison> {
