@@ -29,7 +29,6 @@ from .errors import InputError, Place
 from .records import Record
 from .results import (
     Certified,
-    CertifiedSample,
     Comparison,
     Diffusion,
     Equilibria,

@@ -139,11 +139,10 @@ def escape(
     system: Systems,
     *,
     per_trajectory: bool = False,
-    certify_sample=None,
     splitting=None,
     progress: Progress = None,
     **keywords: Any,
-) -> Union[results.Escape, results.CertifiedSample, results.Splitting]:
+) -> Union[results.Escape, results.Splitting]:
     """Survival and escapes of an ensemble: a `carom.Escape`.
 
     system: a System, the name of a built-in one, or a system file. Keywords: keys of a system file
@@ -156,26 +155,20 @@ def escape(
     or "lin:0:4:20", "log:1:1000:4"; two keys make a plane. All have the same seed, unless
     that is swept. So with all commands that move particles, relax, orbits and compare.
 
-    certify_sample=M, digits=D: a `carom.CertifiedSample`, the first M trajectories in doubles and
-    certified. splitting="10,20,40" (times) or "hits:lin:0:30:31", with population, repetitions,
+    splitting="10,20,40" (times) or "hits:lin:0:30:31", with population, repetitions,
     kick and lookback: a `carom.Splitting`, for rare events.
 
     Ctrl-C raises KeyboardInterrupt, whose `result` holds what was done.
     """
-    keywords |= {"certify_sample": certify_sample, "splitting": splitting, "per_trajectory": per_trajectory}
-    if certify_sample is None and splitting is None:
+    keywords |= {"splitting": splitting, "per_trajectory": per_trajectory}
+    if splitting is None:
         return _compute(results.Escape, _carom.escape, system, "escape", keywords, progress)
     if per_trajectory:
         raise InputError(
-            "per_trajectory goes with neither certify_sample nor splitting",
+            "per_trajectory does not go with splitting",
             ("", 0, 0, "per_trajectory"), "a plain ensemble",
         )  # fmt: skip
-    kind, function = (
-        (results.Splitting, _carom.split)
-        if splitting is not None
-        else (results.CertifiedSample, _carom.compare_with_certified)
-    )
-    return _compute(kind, function, system, "escape", keywords, progress)
+    return _compute(results.Splitting, _carom.split, system, "escape", keywords, progress)
 
 
 def diffusion(system: Systems, *, progress: Progress = None, **keywords: Any) -> results.Diffusion:

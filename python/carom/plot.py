@@ -427,6 +427,21 @@ def section(result, ax=None, x=None, y=None):
     return ax
 
 
+def distances(result, ax=None):
+    """How far each case of `carom.validate` is from its expected value, in standard errors; the bands are one and
+    three. Of independent cases without bias 68 % and 99.7 % lie in them."""
+    ax = _new_axes(ax, (8.0, 3.6))
+    cases = result.cases[(result.cases["error"] > 0) | (result.cases["expected_error"] > 0)]
+    for reach, colour in ((3, "#e8eff5"), (1, "#c9dcec")):
+        ax.axhspan(-reach, reach, color=colour, linewidth=0, zorder=0)
+    place = numpy.arange(len(cases))
+    for passed, colour in ((True, COLOURS[0]), (False, "#b3261e")):
+        these = cases["passed"] == passed
+        ax.plot(place[these], numpy.clip(cases["sigma"][these], -5, 5), "o", color=colour)
+    ax.set(ylim=(-5.5, 5.5), xlabel="case", ylabel="distance / standard error")
+    return ax
+
+
 def pictures(result):
     """The pictures that there are of a result or a system, by name; the first is the one that
     `result.plot()` draws."""
@@ -451,6 +466,7 @@ def pictures(result):
         return {"table": table}
     others = {
         results.Section: section,
+        results.Validation: distances,
         results.Equilibria: equilibria,
         results.Comparison: comparison,
         results.Orbits: orbits,

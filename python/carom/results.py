@@ -79,24 +79,14 @@ class Validation(Report):
     def _summary(self):
         return f"{self.passed} passed, {self.failed} failed"
 
+    def plot(self, ax=None):
+        """Draws how far each case is from its expected value."""
+        from . import plot
+
+        return plot.distances(self, ax=ax)
+
     def _main(self):
         return self._json["cases"]
-
-
-class CertifiedSample(OfSystem):
-    """The same starts in doubles and certified: do the survival curves differ?
-
-    pairs, other_hole, other_hits, other_time: numbers of pairs; p_value of the swap test. Array:
-
-    survival  (number of times,): t (time), double, certified, difference, stderr, detectable
-              (shares), only_double, only_certified (numbers of pairs)
-    """
-
-    def _summary(self):
-        return f"{counted(self.pairs, 'pair')}, p = {self.p_value}"
-
-    def _main(self):
-        return self.survival
 
 
 class Splitting(OfSystem):

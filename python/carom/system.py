@@ -246,7 +246,11 @@ class System:
         return printable(f"<carom.System {self._name}: {table['shape']}, walls {walls}{holes}>")
 
     def _repr_svg_(self):
-        return self._loaded("table").svg()
+        from io import StringIO
+
+        picture = StringIO()
+        self.plot().figure.savefig(picture, format="svg")
+        return picture.getvalue()
 
     def plot(self, ax=None, **keywords):
         """Draws the table, its holes and level lines of its potentials."""

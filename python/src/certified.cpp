@@ -12,7 +12,6 @@
 #include "carom/certify/certified_orbit.hpp"
 #include "carom/ensemble/stopwatch.hpp"
 #include "carom/io/certified_archive.hpp"
-#include "cli/commands/certified_sample.hpp"
 #include "cli/commands/run_certified.hpp"
 #include "cli/common.hpp"
 #include "loaded.hpp"
@@ -99,33 +98,6 @@ void save(const CertifiedOutcome& self, const std::string& file, bool force) {
                  self.end.fate != CertifiedFate::interrupted);
 }
 
-// The same starts in doubles and certified.
-struct SampleOutcome {
-  std::shared_ptr<Loaded> system;
-  cli::CertifiedSample sample;
-};
-
-py::tuple compare(const std::shared_ptr<Loaded>& loaded, const py::object& progress) {
-  SampleOutcome outcome{loaded, {}};
-  Course course;
-  const double all =
-      static_cast<double>(cli::whole_number(loaded->options.certify_sample, "certify_sample", 1));
-  const std::exception_ptr interruption = run_beside(course, progress, [&] {
-    outcome.sample = cli::compare_with_certified(loaded->options, loaded->loaded, course.stop,
-                                                 [&](std::uint64_t done) {
-                                                   course.done = done;
-                                                   course.share = static_cast<double>(done) / all;
-                                                 });
-  });
-  return py::make_tuple(std::move(outcome), error_of(interruption));
-}
-
-std::vector<std::string> doubts_of(const SampleOutcome& self) {
-  const PairedEscapeResult& r = self.sample.result;
-  if (r.lost + r.unresolved == 0) return {};
-  return {fmt::format("{} unresolved, {} lost", r.unresolved, r.lost)};
-}
-
 }  // namespace
 
 void add_certified(py::module_& module) {
@@ -146,18 +118,6 @@ void add_certified(py::module_& module) {
       .def("hits", &hits)
       .def("save", &save, py::call_guard<py::gil_scoped_release>(), py::arg("file"),
            py::arg("force"));
-  py::class_<SampleOutcome>(module, "SampleOutcome")
-      .def_property_readonly("system", [](const SampleOutcome& self) { return self.system; })
-      .def("json",
-           [](const SampleOutcome& self) {
-             return cli::sample_json(self.system->system(), self.sample).text();
-           })
-      .def("text",
-           [](const SampleOutcome& self) {
-             return cli::sample_text(self.system->system(), self.sample);
-           })
-      .def("doubts", &doubts_of);
-  module.def("compare_with_certified", &compare, py::arg("system"), py::arg("progress"));
   module.def("run_certified", &run, py::arg("system"), py::arg("progress"));
   module.def("open_certified", &open_certified, py::call_guard<py::gil_scoped_release>(),
              py::arg("file"));

@@ -11,7 +11,6 @@
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/table_report.hpp"
-#include "cli/reports/table_svg.hpp"
 #include "io/text_file.hpp"
 #include "loaded.hpp"
 
@@ -81,10 +80,7 @@ void add_loading(py::module_& module) {
       .def_property_readonly("title", [](const Loaded& self) { return self.system().title; })
       .def_property_readonly("toml", [](const Loaded& self) { return self.loaded.resolved_toml; })
       .def_property_readonly("engine",
-                             [](const Loaded& self) { return cli::engine_of(self.system()); })
-      .def("svg", [](const Loaded& self) {
-        return cli::table_svg(*self.system().table, self.system().title);
-      });
+                             [](const Loaded& self) { return cli::engine_of(self.system()); });
   py::class_<TableOutcome>(module, "TableOutcome")
       .def("json",
            [](const TableOutcome& self) {

@@ -99,9 +99,6 @@ void check_instruction_set(const Options& options) {
   if (std::find(here.begin(), here.end(), options.isa) == here.end())
     refuse_name("--isa", options.isa, "is not an instruction set of this machine",
                 fmt::format("{}", fmt::join(here, ", ")), nearest_name(options.isa, here));
-  // Whether a plain ensemble flies in lanes is known, and said, at its end.
-  if (is_plain_ensemble(options)) return;
-  warn("--isa changed nothing: carom escape --certify-sample takes the widest lanes, or none");
 }
 
 }  // namespace
@@ -152,8 +149,7 @@ std::string repeated_starts(const System& system) {
 }
 
 void follow_links(Options& options) {
-  for (std::string* name : {&options.output, &options.resume, &options.report})
-    *name = followed(*name);
+  for (std::string* name : {&options.output, &options.resume}) *name = followed(*name);
   for (std::string& name : options.files) name = followed(name);
 }
 
@@ -184,13 +180,6 @@ ArchiveLock claim_output(const Options& options) {
   ArchiveLock lock = lock_output(options, options.output);
   refuse_existing(options.output, options.force);
   return lock;
-}
-
-void write_file(const std::string& name, const std::string& text) {
-  const std::string part = io::aside_of(name);
-  errno = 0;
-  if (io::write_new_file(part, text) && std::rename(part.c_str(), name.c_str()) == 0) return;
-  throw InputError(fmt::format("cannot write '{}': {}", name, std::strerror(errno)));
 }
 
 Provenance provenance_of(const Options& options, const System& system, int threads) {

@@ -50,8 +50,6 @@ LoadedSystem load_typed(const Options&);  ///< with what was typed
 ArchiveLock lock_output(const Options&, const std::string& file);
 /// The lock of the file that -o names, which must not exist but with --force; null without -o.
 ArchiveLock claim_output(const Options&);
-/// Writes a file aside and then renames it: it is there whole or not at all.
-void write_file(const std::string& name, const std::string& text);
 Provenance provenance_of(const Options&, const System&, int threads);
 
 /// Adds version, system, title if there is one, seed, threads, engine, isa, seconds, cpu_seconds.

@@ -117,9 +117,6 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
             "Rare events: times, or hits:lin:0:50:51, at which survivors are copied")
       .text("--population", o.population, "N",
             "With --splitting: trajectories of a population (default 20000)")
-      .text("--certify-sample", o.certify_sample, "M",
-            "Compare the survival of the first M trajectories in doubles and certified")
-      .text("--digits", o.digits, "D", "With --certify-sample: guaranteed decimals (default 10)")
       .text("--repetitions", o.repetitions, "N",
             "With --splitting: populations for each kick (default 16)")
       .text("--kick", o.kick, "DELTA",
@@ -344,13 +341,10 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "  carom validate                  closed tables, published values\n"
           "  carom validate --scale 0.01     a quick look\n"
           "  carom validate --soak --json    the long runs\n"
-          "  carom validate --report validation.html\n"
           "\n"
           "Exit status 3 if a case fails.")
       .flag("--soak", o.soak, "The long runs: 10^9 hits a closed table, 10^7 a mean flight")
       .text("--scale", o.scale, "X", "Multiplies the trajectories of each case (default 1)")
-      .text("--report", o.report, "FILE.html", "Write a page with all cases and their distances")
-      .flag("--force", o.force, "Replace a report that exists")
       .threads()
       .verbose();
 }

@@ -40,12 +40,11 @@ struct Options {
   std::string splitting, population, repetitions, kick, lookback;  ///< of carom escape
   std::vector<std::string> files;                                  ///< of carom merge
   std::string shard, block, checkpoint;                            ///< of carom escape
-  std::string output, threads, trajectory, resume, scale, report;
+  std::string output, threads, trajectory, resume, scale;
   std::string what;  ///< of carom plot
   std::string engine = "auto", isa = "auto", precision = "double", digits;
   std::string schemes, steps, tolerances, error, comparison_time;  ///< of carom compare
   std::string hits, tries;                                         ///< of carom orbit
-  std::string certify_sample;                                      ///< of carom escape
   std::string starts;                                              ///< of carom orbit and relax
   bool saddles = false;                                            ///< of carom relax
   SystemOverrides overrides;

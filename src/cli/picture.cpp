@@ -167,6 +167,12 @@ bool is_picture(const std::string& file) {
   return ending == ".png" || ending == ".svg" || ending == ".pdf";
 }
 
+void refuse_other_endings(const std::string& file) {
+  if (!is_picture(file))
+    throw InputError(Place{"command line", 0, 0, "-o"}, "'" + file + "' is not a picture",
+                     "a name ending in .png, .svg or .pdf");
+}
+
 int draw(const std::string& source, const std::string& picture, bool force,
          const std::string& what) {
   refuse_existing(picture, force);

@@ -11,6 +11,8 @@ namespace carom::cli {
 
 /// Does the name end in .png, .svg or .pdf?
 bool is_picture(const std::string& file);
+/// Throws InputError where it does not.
+void refuse_other_endings(const std::string& file);
 
 /// The picture of an archive or a system; `what`: which one, "": the first. Returns the exit
 /// status. Throws InputError where Python, the module or matplotlib is not there, and says which

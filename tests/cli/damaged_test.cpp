@@ -122,8 +122,7 @@ TEST(Damaged, EscapeNamesTheDataset) {
            "'/done' counts others than the trajectories 0 to 199"},
           {[](Damage& d) { d.move_first("survival/t"); },
            "'/survival/t' are not the report times of '/system'"},
-          {[](Damage& d) { d.resize("survival/gone", 2); },
-           "'/survival/gone' has lost rows"},
+          {[](Damage& d) { d.resize("survival/gone", 2); }, "'/survival/gone' has lost rows"},
           {[](Damage& d) { d.set_first("survival/gone", 500); },
            "'/survival/gone' has more than '/fates'"},
           {[](Damage& d) { d.set_first("survival_hits/gone", 500); },
@@ -162,29 +161,29 @@ TEST(Damaged, DiffusionNamesTheDataset) {
   const Shell shell;
   ASSERT_EQ(shell("$carom diffusion lorentz-triangular --trajectories 50 --t-max 5 -o a.h5").status,
             0);
-  expect_told(shell, "diffusion",
-              {
-                  {[](Damage& d) { d.move_first("msd/t"); },
-                   "'/msd/t' are not the report times of '/system'"},
-                  {[](Damage& d) { d.resize("msd_groups/count", 3); },
-                   "'/msd_groups/count' has lost rows"},
-                  {[](Damage& d) { d.resize("fates/trajectories", 0); },
-                   "'/fates/trajectories' is not one number"},
-                  {[](Damage& d) { d.resize("fates/energy_change", 0); },
-                   "'/fates/energy_change' is not one number"},
-                  {[](Damage& d) {
-                     d.add_to_first("fates/trajectories"), d.add_to_first("fates/survived");
-                   },
-                   "'/fates/trajectories' is not the number of particles that '/done' counts"},
-                  {[](Damage& d) { d.set_first("fates/survived", 3); },
-                   "'/fates' do not add up to '/fates/trajectories'"},
-                  {[](Damage& d) { d.set_first("fates/pinned", 51); },
-                   "'/fates/pinned' and '/fates/capped' are more than '/fates/survived'"},
-                  {[](Damage& d) { d.set_first("fates/capped", 51); },
-                   "'/fates/pinned' and '/fates/capped' are more than '/fates/survived'"},
-                  {[](Damage& d) { d.set_first("msd_groups/count", 0); },
-                   "'/msd_groups/count' and '/fates' contradict each other"},
-              });
+  expect_told(
+      shell, "diffusion",
+      {
+          {[](Damage& d) { d.move_first("msd/t"); },
+           "'/msd/t' are not the report times of '/system'"},
+          {[](Damage& d) { d.resize("msd_groups/count", 3); }, "'/msd_groups/count' has lost rows"},
+          {[](Damage& d) { d.resize("fates/trajectories", 0); },
+           "'/fates/trajectories' is not one number"},
+          {[](Damage& d) { d.resize("fates/energy_change", 0); },
+           "'/fates/energy_change' is not one number"},
+          {[](Damage& d) {
+             d.add_to_first("fates/trajectories"), d.add_to_first("fates/survived");
+           },
+           "'/fates/trajectories' is not the number of particles that '/done' counts"},
+          {[](Damage& d) { d.set_first("fates/survived", 3); },
+           "'/fates' do not add up to '/fates/trajectories'"},
+          {[](Damage& d) { d.set_first("fates/pinned", 51); },
+           "'/fates/pinned' and '/fates/capped' are more than '/fates/survived'"},
+          {[](Damage& d) { d.set_first("fates/capped", 51); },
+           "'/fates/pinned' and '/fates/capped' are more than '/fates/survived'"},
+          {[](Damage& d) { d.set_first("msd_groups/count", 0); },
+           "'/msd_groups/count' and '/fates' contradict each other"},
+      });
 }
 
 // Earlier builds did not count those that the cap ended among the survivors of a diffusion.

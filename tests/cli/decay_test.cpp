@@ -89,7 +89,7 @@ TEST(Decay, SaysWhyThereIsNone) {
 TEST(Decay, RefusesAWindowWithoutAUse) {
   const Shell shell;
   EXPECT_EQ(shell("$carom escape circle --window 5:2").status, 1);
-  EXPECT_EQ(shell("$carom escape circle --window 5:9 --certify-sample 2").status, 1);
+  EXPECT_EQ(shell("$carom escape circle --window 5").status, 1);
 }
 
 }  // namespace

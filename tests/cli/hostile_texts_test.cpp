@@ -53,16 +53,6 @@ TEST(HostileTexts, JsonKeepsThem) {
   EXPECT_EQ(json_value(o.out, "title"), '"' + title + '"');
 }
 
-TEST(HostileTexts, DrawingsAreXml) {
-  const Shell shell;
-  write_system(shell);
-  ASSERT_EQ(shell("$carom table a.toml -o a.svg").status, 0);
-  EXPECT_FALSE(acts(shell.read("a.svg")));
-  EXPECT_NE(shell.read("a.svg").find("a\\x1b]0;owned\\x07"), std::string::npos);
-  const Outcome o = shell("python3 -c 'import xml.dom.minidom as x; x.parse(\"a.svg\")'");
-  EXPECT_EQ(o.status, 0) << o.err;
-}
-
 TEST(HostileTexts, NamesAreRefused) {
   const Shell shell;
   write_system(shell);
@@ -80,13 +70,12 @@ TEST(PlantedLinks, AreNotFollowed) {
       "run --resume kept.h5 --t-max 5 -o a.h5",
       "section circle --closed --orbits 2 --points 3 -o a.h5",
       "orbit three-disc --hits 2 -o a.h5",
-      "escape circle --closed --trajectories 20 --sweep run.t_max=list:1,2 -o a.h5",
-      "table circle -o a.svg"};
+      "escape circle --closed --trajectories 20 --sweep run.t_max=list:1,2 -o a.h5"};
   const std::vector<std::string> names = {"new", "records", "sweep", "value-0", "value-0.report"};
   const Shell shell;
   ASSERT_EQ(shell("$carom run circle --closed --t-max 3 -o kept.h5 --quiet").status, 0);
   for (const std::string& writer : writers) {
-    const std::string file = writer.ends_with(".svg") ? "a.svg" : "a.h5";
+    const std::string file = "a.h5";
     std::string plant = "mkdir " + file + ".part; touch " + file + ".part/carom.lock; ";
     for (const std::string& name : names)
       plant +=
@@ -96,7 +85,7 @@ TEST(PlantedLinks, AreNotFollowed) {
     EXPECT_EQ(o.status, 0) << writer << "\n" << o.err;
     for (const std::string& name : names)
       EXPECT_EQ(shell.read(name), "precious\n") << writer << " wrote through " << name;
-    shell("rm -rf a.h5 a.h5.part a.svg a.svg.part");
+    shell("rm -rf a.h5 a.h5.part");
   }
 }
 

@@ -110,23 +110,6 @@ TEST(Links, CheckpointsStandBesideTheFile) {
   EXPECT_EQ(shell.files(), (Names{"link", "out.h5", "real"}));
 }
 
-// What is said of archives holds for drawings, too.
-TEST(Links, ADrawingIsMadeBehindALinkAndNeverOverAPipe) {
-  const Shell shell;
-  ASSERT_EQ(shell("mkdir real; ln -s real/a.svg out.svg; mkfifo pipe.svg; mkdir folder.svg; "
-                  "echo notes > own.svg.part")
-                .status,
-            0);
-  EXPECT_EQ(shell("$carom table stadium -o out.svg").status, 0);
-  EXPECT_EQ(shell("test -L out.svg && test -f real/a.svg").status, 0);
-  for (const char* name : {"out", "pipe", "folder", "own"}) {
-    const Outcome o = shell(std::string("timeout 300 $carom table stadium -o ") + name + ".svg");
-    EXPECT_EQ(o.status, 1) << name;
-    EXPECT_EQ(o.out, "") << name;
-  }
-  EXPECT_EQ(shell.read("own.svg.part"), "notes\n");
-}
-
 TEST(Links, LinksInACircleAreRefused) {
   const Shell shell;
   const Outcome o = shell("ln -s b.h5 a.h5; ln -s a.h5 b.h5; $carom run stadium --t-max 3 -o a.h5");

@@ -64,12 +64,5 @@ TEST(OptionNames, CommandsHaveNoOptionsWithoutAUse) {
     }
 }
 
-// Where it has no effect, that is told.
-TEST(OptionNames, InstructionSetsWithoutLanesAreTold) {
-  const Shell shell;
-  const Outcome sample = shell("$carom escape stadium --t-max 3 --certify-sample 5 --isa baseline");
-  EXPECT_EQ(sample.err.rfind("carom: --isa ", 0), 0u) << sample.err;
-}
-
 }  // namespace
 }  // namespace carom

@@ -227,7 +227,6 @@ TEST(Reports, FitTheScreen) {
       "field.larmor_radius=0.1",
       36);
   expect_fit("escape stadium --splitting lin:0:50:11 --population 200", 40);
-  expect_fit("escape stadium --certify-sample 20 --t-max 20", 30);
   expect_fit("run magnetic-square --closed --collisions 1000 --set particles.count=40", 30);
   expect_fit("escape stadium --trajectories 3e6 --t-max 5", 34);
   expect_fit("diffusion stadium --trajectories 40 --t-max 3", 38);

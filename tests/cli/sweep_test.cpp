@@ -65,7 +65,6 @@ TEST(Sweep, GivesEveryCommandARowAValue) {
         "table.half_length=list:1,2",
         "escape three-disc --splitting 2,4 --population 200 --repetitions 2 --sweep "
         "table.radius=list:1,0.9",
-        "escape stadium --certify-sample 3 --t-max 5 --sweep table.half_length=list:2,3",
         "diffusion lorentz-triangular --trajectories 50 --t-max 9 --sweep "
         "table.spacing=list:2.1,2.2",
         "lyapunov stadium --closed --trajectories 9 --t-max 20 --sweep table.half_length=list:1,2",

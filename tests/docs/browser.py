@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Opens the site and a report in a browser without network: browser.py SITE REPORT SCREENSHOTS.
+"""Opens the site in a browser without network: browser.py SITE SCREENSHOTS.
 The exit status is 77 where there is no chromium."""
 
 import pathlib
@@ -10,7 +10,7 @@ import sys
 import tempfile
 import unittest
 
-site = report = screenshots = None
+site = screenshots = None
 
 
 def chromium(address, *options):
@@ -57,17 +57,10 @@ class Site(unittest.TestCase):
         self.assertIn("guide/system-file.html", html)
 
 
-class Report(unittest.TestCase):
-    def test_it_opens(self):
-        html = opened(report.as_uri(), "report")
-        self.assertIn("<svg", html)
-        self.assertIn("passed", text_of(html))
-
-
 if __name__ == "__main__":
     if not shutil.which("chromium"):
         print("there is no chromium")
         sys.exit(77)
-    site, report, screenshots = (pathlib.Path(given).resolve() for given in sys.argv[1:4])
+    site, screenshots = (pathlib.Path(given).resolve() for given in sys.argv[1:3])
     screenshots.mkdir(parents=True, exist_ok=True)
     unittest.main(argv=sys.argv[:1])

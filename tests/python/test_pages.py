@@ -20,7 +20,6 @@ SMALLER = (
     (r"--orbits \S+", "--orbits 3"),
     (r"--tries \S+", "--tries 20"),
     (r"--population \S+", "--population 50"),
-    (r"--certify-sample \S+", "--certify-sample 20"),
 )
 NEEDS = {"escape": "--trajectories 100", "diffusion": "--trajectories 100", "lyapunov": "--trajectories 50",
          "section": "--orbits 3 --points 20",

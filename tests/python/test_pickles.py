@@ -30,7 +30,6 @@ MAKES = {
     "orbits": lambda: carom.orbits("three-disc", hits=3, zeta=True),
     "certified orbits": lambda: carom.orbits("three-disc", hits=2, certify=True),
     "compare": lambda: carom.compare("henon-heiles", t_max=2, schemes=["ruth-3"], steps=[0.1, 0.05]),
-    "sample": lambda: carom.escape("stadium", certify_sample=5),
     "splitting": lambda: carom.escape("three-disc", **SPLITTING),
     "sweep": lambda: carom.escape("stadium", sweep={"field.B": [0.5, 1], "table.radius": [1, 2]}, **FEW),
     "sweep of splitting": lambda: carom.escape("three-disc", sweep={"table.radius": [1, 1.1]}, **SPLITTING),

@@ -33,6 +33,14 @@ def test_a_system_is_drawn(carom, tmp_path, ending):
     assert is_picture(tmp_path / f"mushroom{ending}")
 
 
+def test_a_table_is_drawn_as_a_system_is(carom, tmp_path):
+    said = carom("table", "stadium", "--set", "table.half_length=2", "--json", "-o", "stadium.svg").stdout
+    assert '"drawing": "stadium.svg"' in said and is_picture(tmp_path / "stadium.svg")
+    carom("table", "stadium", "-o", "stadium.svg", status=1)  # it is there already
+    carom("plot", "stadium", "-o", "other.svg")
+    assert (tmp_path / "other.svg").stat().st_size != (tmp_path / "stadium.svg").stat().st_size
+
+
 def test_an_archive_is_drawn(carom, tmp_path):
     carom("run", "ellipse-magnetic", "--collisions", 20, "-o", "orbit.h5", "--quiet")
     carom("plot", "orbit.h5")

@@ -143,16 +143,6 @@ def test_validation(program):
     assert f"{result.passed} passed" in str(result)
 
 
-def test_certified_sample(program):
-    keywords = {"times": [1, 5, 10], "t_max": 10}
-    result = carom.escape("stadium", certify_sample=50, digits=12, **keywords)
-    assert isinstance(result, carom.CertifiedSample)
-    options = ("--certify-sample", 50, "--digits", 12, "--times", "1,5,10", "--t-max", 10)
-    same(result, program("escape", "stadium", *options))
-    assert result.survival.dtype.names[:3] == ("t", "double", "certified")
-    assert type(carom.escape(result.system, trajectories=10)) is carom.Escape
-
-
 def test_splitting(program):
     keywords = {"population": 100, "repetitions": 4, "kick": 0.01}
     options = ("--population", 100, "--repetitions", 4, "--kick", 0.01)
@@ -166,11 +156,11 @@ def test_splitting(program):
 
 
 def test_options_without_a_use_are_refused():
-    for keywords in ({"digits": 5}, {"population": 5}, {"splitting": "1,2", "certify_sample": 5}):
+    for keywords in ({"digits": 5}, {"population": 5}):
         with pytest.raises(carom.InputError):
             carom.escape("stadium", trajectories=10, **keywords)
     with pytest.raises(carom.InputError, match="per_trajectory"):
-        carom.escape("stadium", certify_sample=5, per_trajectory=True)
+        carom.escape("stadium", splitting="1,2", per_trajectory=True)
 
 
 def test_archives_hold_contacts_energies_and_trajectories(tmp_path):

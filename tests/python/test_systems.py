@@ -18,7 +18,7 @@ def test_a_table_is_built_with_holes_and_obstacles():
     assert table.walls == ["bottom", "right", "top", "left", "obstacle_1"]
     assert table.holes == ["exit"]
     assert "1/5" in table.to_toml()
-    assert table._repr_svg_().startswith("<svg")
+    assert table._repr_svg_().startswith("<?xml")
 
 
 @pytest.mark.parametrize(

@@ -82,7 +82,7 @@ def curve_of(words, until, particles, folder):
 
 def fits_of(options, p, until, particles, count, seed=1):
     """Fits of ensembles that are drawn from P(t): None, or (decided, local, from, to, laws)."""
-    generator = numpy.random.default_rng(seed)
+    generator = numpy.random.default_rng(seed + trials.shift)
     edges = edges_until(until)
     left = numpy.array(p(edges), dtype=float)
     left[0] = 1.0

@@ -35,7 +35,7 @@ def main():
         for seed in range(1, number + 1):
             words = ["lyapunov", *command.split(), "--seed", str(seed)]
             if displaced:
-                words += ["--set", f"initial.position=[0, -0.25{seed:07d}]"]
+                words += ["--set", f"initial.position=[0, -0.25{seed + trials.shift:07d}]"]
             found.append(carom(words))
         values = [one["lambda"][0]["value"] for one in found]
         truth = statistics.fmean(values)

@@ -1,14 +1,22 @@
-"""Helpers of the trials: run the program, intervals of shares, tables."""
+"""Helpers of the trials: run the program, intervals of shares, tables.
+
+CAROM_SEEDS=N in the environment shifts all seeds by N: trials that nothing was chosen by.
+"""
 import json
 import math
+import os
 import subprocess
 
 program = "build/release/carom"
+shift = int(os.environ.get("CAROM_SEEDS", "0"))
 
 
 def carom(args):
     """The JSON object that `carom ARGS --json --quiet` prints; args is a list or one text."""
     words = args.split() if isinstance(args, str) else list(args)
+    if "--seed" in words:
+        at = words.index("--seed") + 1
+        words[at] = str(int(words[at]) + shift)
     done = subprocess.run([program, *words, "--json", "--quiet"], capture_output=True, text=True, check=False)
     if not done.stdout:
         raise SystemExit(f"{program} {' '.join(words)}\n{done.stderr}")

@@ -131,12 +131,12 @@ template EnsembleJob<LyapunovResult> job_of(const Options&, Sharing);
 bool is_plain_ensemble(const Options& options) {
   const bool adds_up = options.command == "escape" || options.command == "diffusion" ||
                        options.command == "lyapunov";
-  return adds_up && options.splitting.empty() && options.certify_sample.empty();
+  return adds_up && options.splitting.empty();
 }
 
 void refuse_parts_of_others(const Options& options) {
   if (is_plain_ensemble(options)) return;
-  const char* const only = "a plain ensemble: neither --splitting nor --certify-sample";
+  const char* const only = "a plain ensemble, without --splitting";
   if (!options.resume.empty())
     throw InputError(place_of("--resume"), "this cannot be continued", only);
   if (!options.shard.empty()) throw InputError(place_of("--shard"), "this cannot be parted", only);

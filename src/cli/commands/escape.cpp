@@ -1,7 +1,6 @@
 // carom escape: survival probability and escape rate of an ensemble.
 #include "carom/ensemble/escape.hpp"
 
-#include "cli/commands/certified_sample.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/escape_options.hpp"
 #include "cli/commands/run_shared.hpp"
@@ -13,7 +12,6 @@ int escape(const Options& options) {
   refuse_parts_of_others(options);
   check_escape_options(options);
   if (!options.splitting.empty()) return splitting(options);
-  if (!options.certify_sample.empty()) return certified_sample(options);
   return run_ensemble<EscapeResult>(options, [](const System& system, const auto& how) {
     return run_escape(system, {how, {}});
   });

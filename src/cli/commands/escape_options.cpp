@@ -12,7 +12,6 @@ namespace carom::cli {
 namespace {
 
 // Each pair of a sample takes memory, and a certified orbit milliseconds at least.
-constexpr std::uint64_t largest_sample = 100'000'000;
 
 }  // namespace
 
@@ -26,23 +25,9 @@ void check_escape_options(const Options& options) {
       throw InputError(place_of(option), fmt::format("it cannot be combined with {}", other),
                        "one of the two");
   };
-  if (!options.certify_sample.empty()) {
-    const std::uint64_t sample = whole_number(options.certify_sample, "--certify-sample", 1);
-    if (sample > largest_sample)
-      throw InputError(place_of("--certify-sample"),
-                       fmt::format("{} certified orbits are too many", options.certify_sample),
-                       fmt::format("at most {}", grouped(largest_sample)));
-  }
-  for (const auto& [given, other] : {std::pair{&options.splitting, "--splitting"},
-                                     {&options.certify_sample, "--certify-sample"}}) {
-    if (given->empty()) continue;
-    refuse_beside(options.block, "--block", other);
-    refuse_beside(options.checkpoint, "--checkpoint", other);
-  }
-  if (!options.certify_sample.empty())
-    refuse_beside(options.window, "--window", "--certify-sample");
   if (!options.splitting.empty()) {
-    refuse_beside(options.certify_sample, "--certify-sample", "--splitting");
+    refuse_beside(options.block, "--block", "--splitting");
+    refuse_beside(options.checkpoint, "--checkpoint", "--splitting");
     refuse_beside(options.overrides.trajectories, "--trajectories",
                   "--splitting, which has --population");
     refuse_beside(options.isa == "auto" ? "" : options.isa, "--isa",
@@ -50,7 +35,6 @@ void check_escape_options(const Options& options) {
     if (options.splitting.starts_with("hits:"))
       refuse_beside(options.overrides.times, "--times", "levels of hits");
   }
-  if (options.certify_sample.empty()) refuse(options.digits, "--digits", "--certify-sample");
   if (!options.splitting.empty()) return;
   refuse(options.population, "--population", "--splitting");
   refuse(options.repetitions, "--repetitions", "--splitting");

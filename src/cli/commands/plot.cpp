@@ -36,9 +36,7 @@ int animate(const Options& options) {
 int plot(const Options& options) {
   std::string picture = options.output;
   if (picture.empty()) picture = std::filesystem::path(options.system).stem().string() + ".png";
-  if (!is_picture(picture))
-    throw InputError(Place{"command line", 0, 0, "-o"}, "'" + picture + "' is not a picture",
-                     "a name ending in .png, .svg or .pdf");
+  refuse_other_endings(picture);
   return drawn(options, "picture", picture);
 }
 

@@ -25,7 +25,6 @@ constexpr std::pair<const char*, std::string Options::*> kept_options[] = {
     {"trajectory", &Options::trajectory},
     {"precision", &Options::precision},
     {"digits", &Options::digits},
-    {"certify_sample", &Options::certify_sample},
     {"splitting", &Options::splitting},
     {"population", &Options::population},
     {"repetitions", &Options::repetitions},

@@ -1,24 +1,22 @@
 // carom table: checks, measures and draws a table.
 #include <optional>
+#include <string>
 
 #include "carom/base/error.hpp"
 #include "carom/ensemble/stopwatch.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
+#include "cli/picture.hpp"
 #include "cli/reports/table_report.hpp"
-#include "cli/reports/table_svg.hpp"
+#include "io/checkpoint/work_folder.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {
 
 int table(const Options& options) {
   const Stopwatch watch;
-  ArchiveLock lock;
   if (!options.output.empty()) {
-    if (!options.output.ends_with(".svg"))
-      throw InputError(Place{options.output, 0, 0, ""}, "a table is drawn as SVG",
-                       "a name ending in .svg");
-    lock = lock_output(options, options.output);
+    refuse_other_endings(options.output);
     refuse_existing(options.output, options.force);
   }
   std::optional<io::Progress> preparing(std::in_place, !options.quiet);
@@ -26,7 +24,13 @@ int table(const Options& options) {
   const System& system = loaded.system;
   const TableMeasure measured = measure(*system.table);
   preparing.reset();
-  if (!options.output.empty()) write_file(options.output, table_svg(*system.table, system.title));
+  if (!options.output.empty()) {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("table.toml");
+    if (!io::write_new_file(file, loaded.resolved_toml))
+      throw InputError("cannot write '" + file + "'");
+    if (const int status = draw(file, options.output, options.force); status != done) return status;
+  }
   if (!options.json) {
     print(table_text(system, measured, options.output, options.verbose));
     return done;

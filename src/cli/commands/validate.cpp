@@ -12,7 +12,6 @@
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
-#include "cli/reports/validation_page.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {
@@ -130,11 +129,6 @@ std::string summary_of(const Validation& all) {
 }
 
 int validate(const Options& options) {
-  ArchiveLock lock;
-  if (!options.report.empty()) {
-    lock = lock_output(options, options.report);
-    refuse_existing(options.report, options.force);
-  }
   validation::CheckOptions how;
   how.threads = threads_of(options);
   how.interrupted = &catch_interrupts();
@@ -147,14 +141,7 @@ int validate(const Options& options) {
       [&](const Validation::Done& one) {
         if (!options.json) print(text_of(one, options.verbose));
       });
-  if (!options.report.empty()) write_file(options.report, validation_page(all, options.line));
-  if (options.json) {
-    Json json = validation_json(all);
-    if (!options.report.empty()) json.set("report", options.report);
-    print(json.text() + "\n");
-  } else {
-    print(summary_of(all));
-  }
+  print(options.json ? validation_json(all).text() + "\n" : summary_of(all));
   if (all.failed() > 0) return untrusted;
   return all.complete ? done : stopped;
 }

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <functional>
 
-#include "carom/analysis/paired_survival.hpp"
 #include "carom/ensemble/system.hpp"
 #include "carom/motion/state.hpp"
+#include "validation/rounding/paired_survival.hpp"
 
 namespace carom {
 

@@ -1,5 +1,5 @@
 // Paired survival curves against counts by hand, all swaps there are, and made-up biases.
-#include "carom/analysis/paired_survival.hpp"
+#include "validation/rounding/paired_survival.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "carom/ensemble/paired_escape.hpp"
+#include "validation/rounding/paired_escape.hpp"
 
 #include <algorithm>
 #include <functional>

@@ -1,4 +1,4 @@
-#include "carom/analysis/paired_survival.hpp"
+#include "validation/rounding/paired_survival.hpp"
 
 #include <algorithm>
 #include <cmath>
