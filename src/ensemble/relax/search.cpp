@@ -98,6 +98,13 @@ class Model {
     }
   }
 
+  /// The most negative curvature, or the least.
+  double lowest() const { return eigen_.values.empty() ? 0.0 : eigen_.values.front(); }
+  std::vector<double> lowest_direction() const {
+    std::vector<double> direction;
+    for (std::size_t i = 0; i < slope_.size(); ++i) direction.push_back(eigen_.vectors(0, i));
+    return direction;
+  }
   /// Is there no slope and no way down?
   bool rests() const {
     return lowest() >= 0.0 &&
@@ -136,16 +143,17 @@ class Model {
     return along(p, shift == 0.0);
   }
 
-  /// Newton's step along all directions that have a curvature.
-  Step newton() const {
+  /// Newton's step along all directions that have a curvature; `certain`: and a slope that is more
+  /// than rounding.
+  Step newton(bool certain) const {
+    const std::vector<double>& slopes = certain ? slope_ : all_slopes_;
     std::vector<double> p;
     for (std::size_t k = 0; k < slope_.size(); ++k)
-      p.push_back(eigen_.values[k] == 0.0 ? 0.0 : -all_slopes_[k] / eigen_.values[k]);
+      p.push_back(eigen_.values[k] == 0.0 ? 0.0 : -slopes[k] / eigen_.values[k]);
     return along(p, true);
   }
 
  private:
-  double lowest() const { return eigen_.values.empty() ? 0.0 : eigen_.values.front(); }
   double way_at(double shift) const {
     double square = 0.0;
     for (std::size_t k = 0; k < slope_.size(); ++k) {
@@ -177,13 +185,16 @@ constexpr int most_newton_steps = 60;
 constexpr double small_step = 0x1p-26;
 
 /// From near a place without slopes: Newton's steps until they do not become smaller any more.
+/// Where the rounding of slopes leads far along a soft direction, which bends, they never do: then
+/// those that are no more than rounding do not count.
 std::optional<Rest> refined(const Landscape& landscape, Sites sites, const Sites& start,
                             const Stopped& stopped) {
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_newton_steps; ++i) {
     if (stopped()) return {};
     Shape shape = landscape.shape(sites);
-    const std::vector<double> step = Model(shape).newton().by;
+    const bool certain = i >= most_newton_steps / 2;
+    const std::vector<double> step = Model(shape).newton(certain).by;
     const double size = largest(step);
     if (!std::isfinite(size)) return {};
     // Steps that no longer halve say that rounding is reached, in what is small or without slopes.
@@ -191,7 +202,7 @@ std::optional<Rest> refined(const Landscape& landscape, Sites sites, const Sites
         size <= small_step * extent(sites, start) || largest(shape.slope) <= shape.slope_error;
     if (near && !(size < 0.5 * last)) return Rest{std::move(sites), std::move(shape), size};
     if (size == 0.0) {
-      if (largest(shape.slope) > shape.slope_error) return {};
+      if (!certain && largest(shape.slope) > shape.slope_error) return {};
       return Rest{std::move(sites), std::move(shape), size};
     }
     last = size;
@@ -221,14 +232,17 @@ class Descent {
       const Model model(shape_);
       const Model::Step step = model.lowest_within(radius_);
       const bool near = step.newton && largest(step.by) <= small_step * extent(sites_, start_);
-      if (model.rests() || near) {
+      const bool spent = radius_ < 0x1p-60 * size_;  // no step lowers the energy
+      if (model.rests() || near || spent) {
         std::optional<Rest> rest = refined(landscape_, sites_, start_, stopped_);
-        if (rest && is_end(*rest)) return rest;
-        if (rest) continue;
-        if (model.rests()) return {};
+        if (rest && is_end(*rest)) {
+          if (!push_off(*rest)) return rest;
+          continue;
+        }
+        if (rest && !spent) continue;
+        if (spent || model.rests()) return {};
       }
       try_step(model, step);
-      if (radius_ < 0x1p-60 * size_) return {};
     }
     return {};
   }
@@ -244,6 +258,23 @@ class Descent {
     sites_ = std::move(sites);
     energy_ = landscape_.energy(sites_);
     shape_ = landscape_.shape(sites_);
+  }
+
+  /// On top of a soft direction no straight step goes down: the valley bends, and short steps
+  /// change the slope by less than its rounding. So the search goes on beside it, where the slope
+  /// is seen. False: it is no such place, or the search has come back too often.
+  bool push_off(const Rest& rest) {
+    constexpr int most = 4;
+    const Model model(rest.shape);
+    if (model.lowest() >= 0.0 || pushes_ == most) return false;
+    const double n = static_cast<double>(rest.shape.slope.size());
+    const double seen = std::sqrt(n) * rest.shape.slope_error / -model.lowest();
+    std::vector<double> aside = model.lowest_direction();
+    ++pushes_;
+    for (double& x : aside) x *= std::ldexp(seen, pushes_ + 1);
+    put(landscape_.displaced(rest.sites, aside.data()));
+    radius_ = first_radius * size_;
+    return true;
   }
 
   /// Walls hold all that is outside. Is anything?
@@ -303,6 +334,7 @@ class Descent {
   Sites sites_;
   double energy_ = 0.0, size_ = 0.0, radius_ = 0.0;
   Shape shape_;
+  int pushes_ = 0;
 };
 
 bool inside(const World& world, const Sites& sites) {
