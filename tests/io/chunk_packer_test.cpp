@@ -8,8 +8,6 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <numeric>
-#include <queue>
 #include <random>
 #include <string>
 #include <utility>
@@ -19,7 +17,6 @@
 #include "io/archive/columns.hpp"
 #include "io/archive/deflate.hpp"
 #include "io/archive/hdf5.hpp"
-#include "io/archive/prefix_code.hpp"
 #include "io/archive/sums.hpp"
 
 namespace carom::io::hdf5 {
@@ -103,9 +100,21 @@ const Kind kinds[] = {
      }},
 };
 
-TEST(ChunkPacker, HDF5ReadsWhatWasPacked) {
+std::vector<DeflateLibrary> libraries() {
+  std::vector<DeflateLibrary> all{DeflateLibrary::zlib};
+  if (has(DeflateLibrary::isal)) all.push_back(DeflateLibrary::isal);
+  return all;
+}
+
+class ChunkPackers : public testing::TestWithParam<DeflateLibrary> {};
+INSTANTIATE_TEST_SUITE_P(Libraries, ChunkPackers, testing::ValuesIn(libraries()),
+                         [](const auto& one) {
+                           return one.param == DeflateLibrary::zlib ? "zlib" : "isal";
+                         });
+
+TEST_P(ChunkPackers, HDF5ReadsWhatWasPacked) {
   Reader reader;
-  ChunkPacker packer;
+  ChunkPacker packer(GetParam());
   Random random(1);
   for (const Kind& kind : kinds)
     for (const std::size_t count : {1u, 2u, 15u, 16u, 17u, 300u, 1024u, 4100u, 16384u, 50'000u}) {
@@ -113,14 +122,14 @@ TEST(ChunkPacker, HDF5ReadsWhatWasPacked) {
       double x = 0.25;
       for (std::size_t i = 0; i < count; ++i) values.push_back(x = kind.next(random, x, i));
       const auto packed = packer.pack(bytes_of(values), sizeof(double));
-      EXPECT_LE(packed.bytes.size(), 8 * count + 64) << kind.name;
+      EXPECT_LE(packed.bytes.size(), 8 * count + count / 20 + 128) << kind.name;
       reader.expect(values, packed, std::string(kind.name) + " " + std::to_string(count));
     }
 }
 
-TEST(ChunkPacker, PacksIntegersOfAnyWidth) {
+TEST_P(ChunkPackers, PacksIntegersOfAnyWidth) {
   Reader reader;
-  ChunkPacker packer;
+  ChunkPacker packer(GetParam());
   Random random(2);
   const auto check = [&]<class T>(T) {
     for (const std::size_t count : {5u, 1024u, 16384u})
@@ -143,8 +152,8 @@ TEST(ChunkPacker, PacksIntegersOfAnyWidth) {
 
 // Sizes of a value, as docs/developer/archives.md has them: a sign and an exponent are worth
 // packing, and what is like the row before needs no more than a byte.
-TEST(ChunkPacker, MakesThemShorter) {
-  ChunkPacker packer;
+TEST_P(ChunkPackers, MakesThemShorter) {
+  ChunkPacker packer(GetParam());
   Random random(3);
   const auto size = [&](const char* name) {
     for (const Kind& kind : kinds)
@@ -159,131 +168,37 @@ TEST(ChunkPacker, MakesThemShorter) {
   };
   EXPECT_LT(size("noise"), 7.0);
   EXPECT_LT(size("late times"), 5.2);
-  EXPECT_LT(size("two walls"), 2.8);
+  EXPECT_LT(size("two walls"), 3.5);
   EXPECT_LT(size("signs"), 3.7);
   EXPECT_LT(size("last digits"), 3.5);
-  EXPECT_LT(size("one value"), 0.02);
+  EXPECT_LT(size("one value"), 0.05);
   EXPECT_LT(size("few values"), 0.8);
 }
 
-// Each way of a block on bytes that it suits and that it does not suit.
-TEST(Deflate, AnyBlockHoldsAnyBytes) {
+// Stored and deflated parts in any order, of bytes that suit them and that do not.
+TEST_P(ChunkPackers, AnyPartHoldsAnyBytes) {
   Reader reader;
-  Deflate deflate;
+  Deflate deflate(GetParam());
   Random random(4);
-  using Way = void (Deflate::*)(std::span<const std::uint8_t>);
-  const Way ways[] = {&Deflate::plain, &Deflate::literals, &Deflate::runs, &Deflate::values};
   for (int round = 0; round < 400; ++round) {
-    // Of 1 to 70 000 bytes in up to four parts: noise, few values, or long runs of one byte.
-    Bytes bytes(1 + random() % (round % 10 == 0 ? 70'000 : 3000));
+    // Of 1 to 200 000 bytes in up to four parts: noise, few values, or long runs of one byte.
+    Bytes bytes(1 + random() % (round % 10 == 0 ? 200'000 : 3000));
     std::uint64_t byte = 0;
     const std::uint64_t values = std::uint64_t{1} << random() % 9, stays = random() % 300;
     for (std::uint8_t& one : bytes) {
       if (random() % (stays + 1) == 0) byte = random() % values;
       one = static_cast<std::uint8_t>(byte);
     }
-    deflate.start(bytes.size(), 4);
+    deflate.start();
     std::span<const std::uint8_t> left(bytes);
     for (int part = 0; part < 4; ++part) {
       const std::size_t now = part == 3 ? left.size() : random() % (left.size() + 1);
-      (deflate.*ways[random() % 4])(left.first(now));
+      random() % 2 ? deflate.deflate(left.first(now)) : deflate.store(left.first(now));
       left = left.subspan(now);
     }
-    const auto stream = deflate.finish(adler32(bytes.data(), bytes.size()));
-    EXPECT_LE(stream.size(), bytes.size() + 64);
+    const auto stream = deflate.finish(bytes);
+    EXPECT_LE(stream.size(), bytes.size() + bytes.size() / 20 + 128);
     reader.expect(bytes, {stream, false}, "round " + std::to_string(round));
-  }
-}
-
-TEST(Deflate, LengthsOfCopiesAreAllRight) {
-  Reader reader;
-  Deflate deflate;
-  Bytes bytes;
-  for (std::size_t length = 1; length < 600; ++length)
-    bytes.insert(bytes.end(), length, static_cast<std::uint8_t>(length));
-  deflate.start(bytes.size(), 1);
-  deflate.runs(bytes);
-  reader.expect(bytes, {deflate.finish(adler32(bytes.data(), bytes.size())), false}, "runs");
-}
-
-// Each byte as often as the two rarer ones together: words of Huffman's code are then longer than
-// the format allows.
-TEST(Deflate, RareBytesGetNoWordsThatAreTooLong) {
-  Reader reader;
-  Deflate deflate;
-  ChunkPacker packer;
-  Random random(6);
-  Bytes bytes;
-  std::size_t often = 1, before = 0;
-  for (std::uint8_t byte = 0; byte < 24; ++byte) {
-    bytes.insert(bytes.end(), often, byte);
-    before = std::exchange(often, often + before);
-  }
-  bytes.resize(bytes.size() / 8 * 8);
-  for (const char* const what : {"sorted", "shuffled"}) {
-    for (const auto way : {&Deflate::literals, &Deflate::runs, &Deflate::values}) {
-      deflate.start(bytes.size(), 1);
-      (deflate.*way)(bytes);
-      reader.expect(bytes, {deflate.finish(adler32(bytes.data(), bytes.size())), false}, what);
-    }
-    reader.expect(bytes, packer.pack(bytes, 1), what);
-    std::shuffle(bytes.begin(), bytes.end(), random);
-  }
-}
-
-std::uint64_t bits_of(const std::vector<std::uint32_t>& counts,
-                      const std::vector<std::uint8_t>& lengths) {
-  return std::inner_product(counts.begin(), counts.end(), lengths.begin(), std::uint64_t{0});
-}
-// The least sum of bits without a limit: each node of Huffman's tree costs its symbols a bit.
-std::uint64_t fewest_bits(const std::vector<std::uint32_t>& counts) {
-  std::priority_queue<std::uint64_t, std::vector<std::uint64_t>, std::greater<>> left;
-  for (const std::uint32_t count : counts)
-    if (count > 0) left.push(count);
-  std::uint64_t bits = 0;
-  while (left.size() > 1) {
-    std::uint64_t node = left.top();
-    left.pop();
-    node += left.top();
-    left.pop();
-    bits += node;
-    left.push(node);
-  }
-  return bits;
-}
-
-TEST(PrefixCode, IsCompleteAndAboutTheShortestWithinItsLimit) {
-  Random random(7);
-  for (int round = 0; round < 400; ++round) {
-    const unsigned longest = round % 3 == 0 ? 7 : round % 3 == 1 ? 12 : 15;
-    const std::size_t symbols = 2 + random() % (longest == 7 ? 18 : 285);
-    std::vector<std::uint32_t> counts(symbols);
-    std::uint32_t a = 1, b = 1;
-    for (std::uint32_t& count : counts) {
-      if (round % 4 == 0) count = static_cast<std::uint32_t>(random() % 50);
-      if (round % 4 == 1) count = 1u << random() % 22;
-      if (round % 4 == 2) count = std::exchange(a, std::exchange(b, (a + b) % 3'000'000));
-      if (round % 4 == 3) count = 1u + static_cast<std::uint32_t>(random() % 2);
-    }
-    counts[0] = counts[1] = 1;
-    std::shuffle(counts.begin(), counts.end(), random);
-    const std::vector<std::uint8_t> lengths = code_lengths(counts, longest);
-    ASSERT_EQ(lengths.size(), symbols);
-    std::uint64_t taken = 0;
-    for (std::size_t i = 0; i < symbols; ++i) {
-      ASSERT_EQ(lengths[i] > 0, counts[i] > 0);
-      ASSERT_LE(lengths[i], longest);
-      if (lengths[i] > 0) taken += std::uint64_t{1} << (longest - lengths[i]);
-      for (std::size_t j = 0; j < symbols; ++j)
-        ASSERT_FALSE(counts[i] > 0 && counts[i] < counts[j] && lengths[i] < lengths[j]);
-    }
-    EXPECT_EQ(taken, std::uint64_t{1} << longest);  // no word is left over: zlib asks for that
-    const std::uint64_t bits = bits_of(counts, lengths), fewest = fewest_bits(counts);
-    const bool limited = *std::max_element(lengths.begin(), lengths.end()) == longest;
-    if (limited)
-      EXPECT_LE(bits, fewest + fewest / 4);
-    else
-      EXPECT_EQ(bits, fewest);
   }
 }
 
@@ -295,11 +210,6 @@ std::uint32_t plain_crc32(const Bytes& bytes, std::uint32_t sum) {
     for (int bit = 0; bit < 8; ++bit) sum = sum >> 1 ^ (sum % 2 != 0 ? 0xedb88320u : 0u);
   }
   return ~sum;
-}
-std::uint32_t plain_adler32(const Bytes& bytes) {
-  std::uint32_t sum = 1, sums = 0;
-  for (const std::uint8_t byte : bytes) sum = (sum + byte) % 65521, sums = (sums + sum) % 65521;
-  return sums << 16 | sum;
 }
 // Zero only of zeros.
 std::uint32_t plain_fletcher32(const Bytes& bytes) {
@@ -322,7 +232,6 @@ TEST(Sums, AreThoseOfTheirDefinitions) {
         one = fill == 0 ? 0 : fill == 1 ? 0xff : static_cast<std::uint8_t>(random());
       const auto before = static_cast<std::uint32_t>(random());
       EXPECT_EQ(crc32(bytes.data(), size, before), plain_crc32(bytes, before)) << size;
-      EXPECT_EQ(adler32(bytes.data(), size), plain_adler32(bytes)) << size;
       EXPECT_EQ(fletcher32(bytes.data(), size), plain_fletcher32(bytes)) << size;
     }
 }

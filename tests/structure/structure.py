@@ -49,6 +49,7 @@ PACKAGES = {
     r"gsl/": r"src/ensemble/relax/|src/orbits/",
     r"Random123/": r"src/base/random\.cpp",
     r"toml\+\+/|hdf5": r"src/io/",
+    r"zlib|isa-l/": r"src/io/archive/(deflate|sums)\.cpp",
     r"CLI/": r"src/cli/(options\.cpp|option_faults\.cpp|command_options\.hpp)",
     r"hwy/": r"src/lanes/simd/",
     r"pybind11|Python\.h": r"python/src/",

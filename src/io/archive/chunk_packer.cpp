@@ -5,26 +5,22 @@
 #include <cmath>
 #include <cstring>
 
-#include "io/archive/sums.hpp"
-
 namespace carom::io::hdf5 {
 
 namespace {
 
 constexpr std::size_t widest = 8;
 
-enum class Way { plain, literals, runs };
-
-// What some rows say of all: a way for the bytes at each place of a value (a plane), and whether it
-// is better to leave values whole, as they are often the one before.
-struct Look {
-  Way way[widest];
+// What some rows say of all: is it worth while to deflate the bytes at each place of a value (a
+// plane), and is it better to leave values whole, as they are often the one before?
+struct Plan {
+  bool deflated[widest];
   bool whole;
 };
 
 double information(double count) { return count > 0.0 ? count * std::log2(count) : 0.0; }
 
-Look look_at(const std::uint8_t* values, std::size_t count, std::size_t size) {
+Plan plan_of(const std::uint8_t* values, std::size_t count, std::size_t size) {
   constexpr std::size_t some = 512;
   static const auto informations = [] {
     std::array<double, some + 1> made{};
@@ -47,7 +43,7 @@ Look look_at(const std::uint8_t* values, std::size_t count, std::size_t size) {
   }
   // Bytes that a value takes, one way and the other: a copy takes about one.
   const auto n = static_cast<double>(std::max<std::size_t>(seen, 1));
-  Look look{};
+  Plan plan{};
   double by_planes = 0.0;
   for (std::size_t k = 0; k < size; ++k) {
     double bits = informations[seen];
@@ -55,12 +51,12 @@ Look look_at(const std::uint8_t* values, std::size_t count, std::size_t size) {
     bits /= n;
     // Some hundred bytes like noise have 7.6 bits, not 8.
     const double changes = 1.0 - static_cast<double>(same[k]) / n;
-    look.way[k] = changes < 0.25 ? Way::runs : bits > 7.4 ? Way::plain : Way::literals;
-    by_planes += look.way[k] == Way::plain ? 1.0 : std::min(bits / 8.0, 2.0 * changes);
+    plan.deflated[k] = changes < 0.25 || bits <= 7.4;
+    by_planes += plan.deflated[k] ? std::min(bits / 8.0, 2.0 * changes) : 1.0;
   }
   const double copied = static_cast<double>(like_before) / n;
-  look.whole = size == widest && 8.0 * (1.0 - copied) + copied < by_planes;
-  return look;
+  plan.whole = size == widest && 8.0 * (1.0 - copied) + copied < by_planes;
+  return plan;
 }
 
 #if __has_builtin(__builtin_shufflevector)
@@ -113,21 +109,19 @@ void shuffle(std::size_t size, const std::uint8_t* values, std::size_t count,
 
 ChunkPacker::Packed ChunkPacker::pack(std::span<const std::uint8_t> values, std::size_t size) {
   const std::size_t count = values.size() / size;
-  const Look look = look_at(values.data(), count, size);
-  deflate_.start(values.size(), size);
-  if (look.whole) {
-    deflate_.values(values);
-    return {deflate_.finish(adler32(values.data(), values.size())), false};
+  const Plan plan = plan_of(values.data(), count, size);
+  deflate_.start();
+  if (plan.whole) {
+    deflate_.deflate(values);
+    return {deflate_.finish(values), false};
   }
   planes_.resize(values.size());
   shuffle(size, values.data(), count, planes_.data());
   for (std::size_t k = 0; k < size; ++k) {
     const std::span<const std::uint8_t> plane(planes_.data() + k * count, count);
-    if (look.way[k] == Way::plain) deflate_.plain(plane);
-    if (look.way[k] == Way::literals) deflate_.literals(plane);
-    if (look.way[k] == Way::runs) deflate_.runs(plane);
+    plan.deflated[k] ? deflate_.deflate(plane) : deflate_.store(plane);
   }
-  return {deflate_.finish(adler32(planes_.data(), planes_.size())), true};
+  return {deflate_.finish(planes_), true};
 }
 
 }  // namespace carom::io::hdf5

@@ -15,6 +15,9 @@ namespace carom::io::hdf5 {
 /// tells what is worth while, and the rest is stored as it is. Any HDF5 reads the chunks.
 class ChunkPacker {
  public:
+  explicit ChunkPacker(DeflateLibrary library = has(DeflateLibrary::isal) ? DeflateLibrary::isal
+                                                                          : DeflateLibrary::zlib)
+      : deflate_(library) {}
   struct Packed {
     /// What deflate leaves. Valid until the next chunk.
     std::span<const std::uint8_t> bytes;

@@ -9,9 +9,6 @@ namespace carom::io::hdf5 {
 /// CRC-32 as zlib has it, so that others can compute it. Goes on from the sum of the bytes before.
 std::uint32_t crc32(const void* bytes, std::size_t size, std::uint32_t before = 0);
 
-/// Adler-32, which ends a stream of zlib.
-std::uint32_t adler32(const void* bytes, std::size_t size);
-
 /// The sum of HDF5's filter Fletcher-32, of less than 2^25 bytes.
 std::uint32_t fletcher32(const void* bytes, std::size_t size);
 
