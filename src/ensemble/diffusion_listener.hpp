@@ -14,19 +14,16 @@
 #include "carom/ensemble/engine.hpp"
 #include "carom/events/report.hpp"
 #include "ensemble/energy_watch.hpp"
-#include "ensemble/ensemble_run.hpp"
-#include "ensemble/first_reports.hpp"
+#include "ensemble/ensemble_listener.hpp"
 #include "ensemble/flights_seen.hpp"
-#include "ensemble/particle_hash.hpp"
 
 namespace carom::ensemble {
 
 /// One thread's.
-class DiffusionListener : public Listener {
+class DiffusionListener : public EnsembleListener<DiffusionResult> {
  public:
-  using Thread = EnsembleRun<DiffusionResult>::Thread;
   DiffusionListener(const System& system, const Engine& engine, Thread& thread)
-      : system_(system), engine_(engine), thread_(thread), hash_(system) {}
+      : EnsembleListener(system, engine, thread) {}
 
   void begin(const Trajectory& t) override {
     if (under_way_.size() <= t.slot)
@@ -54,23 +51,19 @@ class DiffusionListener : public Listener {
   void end(const Trajectory& t, const TrajectoryEnd& end) override {
     UnderWay& mine = under_way_[t.slot];
     const EnergiesSeen energies = mine.energies.end(t, end);
-    const DecisionCounts decisions = engine_.decisions();
     const TrajectoryRange range{t.number, t.number + 1};
     std::uint64_t hits = 0;
     thread_.deliver(range, [&](DiffusionResult& sum) {
       for (std::size_t p = 0; p < end.particles.size(); ++p) {
-        add(sum, t.number, t.number * end.particles.size() + p, end.particles[p], mine.samples[p]);
+        add(sum, t.number, index_of(t, p), end.particles[p], mine.samples[p]);
         hits += end.particles[p].hits;
         if (sum.free_paths.counted())
           sum.free_paths.add(t.number,
                              mine.flights[p].end(end.particles[p], t.particles[p].speed, half()));
       }
       sum.energy_change = larger(sum.energy_change, energies.change);
-      sum.energy_error += energies.error;
-      sum.contacts += end.contacts;
-      sum.steps += end.steps;
-      sum.decisions += decisions - std::exchange(decisions_, decisions);
-      sum.done.add(range);
+      add_end(sum, sum.contacts, end, energies.error);
+      add_done(sum, range);
     });
     thread_.report(1, hits);
   }
@@ -133,17 +126,12 @@ class DiffusionListener : public Listener {
     sum.count(fate);
     for (std::size_t k = 0; k < samples; ++k) sum.sums.add(trajectory, k, all[k]);
     sum.collisions += end.hits;
-    sum.digest += hash_(index, fate, time, end.hits, end.last_wall, end.state,
-                        std::span(all.squares).first(samples));
-    if (is_failure(fate)) keep_first(sum.reports, index, report);
+    add_end(sum, index, fate, report,
+            hash_(index, fate, time, end.hits, end.last_wall, end.state,
+                  std::span(all.squares).first(samples)));
   }
 
-  const System& system_;
-  const Engine& engine_;
-  Thread& thread_;
-  const ParticleHash hash_;
   std::vector<UnderWay> under_way_;  ///< by slot
-  DecisionCounts decisions_;         ///< that were told
 };
 
 }  // namespace carom::ensemble

@@ -8,13 +8,10 @@
 
 #include "carom/ensemble/engine.hpp"
 #include "carom/ensemble/escape.hpp"
-#include "carom/ensemble/injection.hpp"
 #include "carom/table/hole_names.hpp"
 #include "ensemble/energy_watch.hpp"
-#include "ensemble/ensemble_run.hpp"
-#include "ensemble/first_reports.hpp"
+#include "ensemble/ensemble_listener.hpp"
 #include "ensemble/ordered_output.hpp"
-#include "ensemble/particle_hash.hpp"
 #include "ensemble/record_of.hpp"
 
 namespace carom::ensemble {
@@ -22,18 +19,14 @@ namespace carom::ensemble {
 /// One thread's. Lanes go from block to block without a pause, so several are under way at once;
 /// where records are wanted in order, one block after the other: a thread that waits for its turn
 /// must not keep others waiting.
-class EscapeListener : public Listener {
+class EscapeListener : public EnsembleListener<EscapeResult> {
  public:
-  using Thread = EnsembleRun<EscapeResult>::Thread;
   using Output = OrderedOutput<TrajectoryRecord>;
 
   EscapeListener(const System& system, const Engine& engine, Thread& thread, Output& output)
-      : system_(system),
-        engine_(engine),
-        thread_(thread),
+      : EnsembleListener(system, engine, thread),
         writer_(output),
         wants_records_(writer_.is_wanted() || thread.wants_records()),
-        hash_(system),
         record_of_(system),
         none_(system.run.times, hole_names(*system.table).size(), system.quasi_random()),
         watch_(system, [this] { return thread_.stopped(); }) {}
@@ -67,22 +60,19 @@ class EscapeListener : public Listener {
   void end(const Trajectory& t, const TrajectoryEnd& end) override {
     Block& block = *under_way_[t.slot];
     EscapeResult& sum = block.part;
-    if (watch_.watches()) {
-      const EnergiesSeen energies = energies_[t.slot].end(t, end);
-      sum.counts.energy_change = larger(sum.counts.energy_change, energies.change);
-      sum.energy_error += energies.error;
-    }
-    sum.counts.contacts += end.contacts;
-    sum.steps += end.steps;
+    EnergiesSeen energies;
+    if (watch_.watches()) energies = energies_[t.slot].end(t, end);
+    sum.counts.energy_change = larger(sum.counts.energy_change, energies.change);
+    add_end(sum, sum.counts.contacts, end, energies.error);
     std::uint64_t hits = 0;
     for (std::size_t p = 0; p < end.particles.size(); ++p) {
       const ParticleEnd& particle = end.particles[p];
-      const std::uint64_t index = particle_index(system_, t.number, p);
+      const std::uint64_t index = index_of(t, p);
       const int hole = record_of_.hole_of(particle);
       sum.counts.add(particle.fate, particle.time, particle.hits, hole, t.number);
-      sum.digest += hash_(index, particle.fate, particle.time, particle.hits, particle.last_wall,
-                          particle.state);
-      if (is_failure(particle.fate)) keep_first(sum.reports, index, particle.report);
+      add_end(sum, index, particle.fate, particle.report,
+              hash_(index, particle.fate, particle.time, particle.hits, particle.last_wall,
+                    particle.state));
       if (wants_records_) block.records.push_back(record_of_(index, t.starts[p], particle));
       hits += particle.hits;
     }
@@ -103,21 +93,15 @@ class EscapeListener : public Listener {
     std::sort(block.records.begin(), block.records.end(),
               [](const auto& a, const auto& b) { return a.index < b.index; });
     if (writer_.is_wanted() && !writer_.deliver(block.number, block.records)) return;
-    const DecisionCounts decisions = engine_.decisions();
     const LaneEffort effort = engine_.effort();
-    block.part.decisions = decisions - std::exchange(decisions_, decisions);
     block.part.effort = effort - std::exchange(effort_, effort);
-    block.part.done.add(block.range);
+    add_done(block.part, block.range);
     thread_.deliver(
         block.range, [&](EscapeResult& sum) { sum.add(block.part); }, std::move(block.records));
   }
 
-  const System& system_;
-  const Engine& engine_;
-  Thread& thread_;
   Output::Writer writer_;
   const bool wants_records_;
-  const ParticleHash hash_;
   const RecordMaker record_of_;
   const SurvivalCounts none_;  ///< of no trajectory yet
   std::list<Block> blocks_;
@@ -125,7 +109,6 @@ class EscapeListener : public Listener {
   const EnergyWatch watch_;                            ///< of a trajectory that has not begun
   std::vector<EnergyWatch> energies_;                  ///< by slot, if they are watched
   bool pause_ = false, exhausted_ = false;
-  DecisionCounts decisions_;  ///< that were told
   LaneEffort effort_;
 };
 

@@ -30,16 +30,13 @@ std::vector<double> GrowthTimes::times() const {
 LyapunovListener::LyapunovListener(const System& system, const GrowthTimes& times,
                                    const GrowthSums& plan, double unit_length, const Engine& engine,
                                    Thread& thread)
-    : system_(system),
+    : EnsembleListener(system, engine, thread),
       marks_(times.marks()),
       blocks_(plan.blocks()),
       unit_length_(unit_length),
       together_(interacts(system)),
       from_walls_(starts_of_the_map(system)),
       growing_(growing_exponents(system)),
-      engine_(engine),
-      thread_(thread),
-      hash_(system),
       record_of_(system),
       watch_(system, [this] { return thread_.stopped(); }) {}
 
@@ -110,8 +107,7 @@ void LyapunovListener::take(Orbit& mine, const GrowthTimes::Mark& mark,
 // time at which its deviations were looked at.
 TrajectoryRecord LyapunovListener::record(const Trajectory& t, const TrajectoryEnd& end,
                                           std::size_t p) const {
-  TrajectoryRecord r =
-      record_of_(particle_index(system_, t.number, p), t.starts[p], end.particles[p]);
+  TrajectoryRecord r = record_of_(index_of(t, p), t.starts[p], end.particles[p]);
   // Those that interact are one orbit, whose deviations are told of the first.
   const Orbit& mine = under_way_[t.slot][together_ ? 0 : p];
   if (!(mine.told > 0.0)) return r;
@@ -133,7 +129,6 @@ bool LyapunovListener::stays(const ParticleEnd& end) const {
 void LyapunovListener::end(const Trajectory& t, const TrajectoryEnd& end) {
   std::vector<Orbit>& orbits = under_way_[t.slot];
   const EnergiesSeen energies = energies_[t.slot].end(t, end);
-  const DecisionCounts decisions = engine_.decisions();
   const TrajectoryRange range{t.number, t.number + 1};
   std::uint64_t hits = 0;
   bool all = true;
@@ -147,7 +142,7 @@ void LyapunovListener::end(const Trajectory& t, const TrajectoryEnd& end) {
         for (std::size_t p = 0; p < end.particles.size(); ++p) {
           Orbit& mine = orbits[p];
           const ParticleEnd& particle = end.particles[p];
-          const std::uint64_t index = t.number * end.particles.size() + p;
+          const std::uint64_t index = index_of(t, p);
           hits += particle.hits;
           ++sum.trajectories;
           sum.count(particle.fate);
@@ -164,14 +159,10 @@ void LyapunovListener::end(const Trajectory& t, const TrajectoryEnd& end) {
             }
             for (const double growth : mine.frame) hash = mix(hash, growth);
           }
-          sum.digest += hash;
-          if (is_failure(particle.fate)) keep_first(sum.reports, index, particle.report);
+          add_end(sum, index, particle.fate, particle.report, hash);
         }
-        sum.energy_error += energies.error;
-        sum.contacts += end.contacts;
-        sum.steps += end.steps;
-        sum.decisions += decisions - std::exchange(decisions_, decisions);
-        sum.done.add(range);
+        add_end(sum, sum.contacts, end, energies.error);
+        add_done(sum, range);
       },
       std::move(records));
   thread_.report(1, hits);

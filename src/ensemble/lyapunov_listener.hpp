@@ -10,9 +10,7 @@
 #include "carom/ensemble/engine.hpp"
 #include "carom/ensemble/lyapunov.hpp"
 #include "ensemble/energy_watch.hpp"
-#include "ensemble/ensemble_run.hpp"
-#include "ensemble/first_reports.hpp"
-#include "ensemble/particle_hash.hpp"
+#include "ensemble/ensemble_listener.hpp"
 #include "ensemble/record_of.hpp"
 
 namespace carom::ensemble {
@@ -35,9 +33,8 @@ class GrowthTimes {
 };
 
 /// One thread's.
-class LyapunovListener : public Listener {
+class LyapunovListener : public EnsembleListener<LyapunovResult> {
  public:
-  using Thread = EnsembleRun<LyapunovResult>::Thread;
   LyapunovListener(const System&, const GrowthTimes&, const GrowthSums& plan, double unit_length,
                    const Engine&, Thread&);
 
@@ -64,21 +61,16 @@ class LyapunovListener : public Listener {
     std::vector<double> frame, frame_before;  ///< growth in each block; logarithms at the last mark
     DriftSums::Lengths lengths{}, volumes{};  ///< ln|w| and that of all that grow, at some looks
   };
-  const System& system_;
   const std::vector<GrowthTimes::Mark>& marks_;
   const std::size_t blocks_;
   const double unit_length_;
   const bool together_;        ///< particles that interact are one orbit
   const bool from_walls_;      ///< starts stand for those of the map: what meets no wall is none
   const std::size_t growing_;  ///< exponents that are not negative or 0, of a spectrum
-  const Engine& engine_;
-  Thread& thread_;
-  const ParticleHash hash_;
   const RecordMaker record_of_;
   std::vector<std::vector<Orbit>> under_way_;  ///< by slot, then by particle
   const EnergyWatch watch_;                    ///< of a trajectory that has not begun
   std::vector<EnergyWatch> energies_;          ///< by slot
-  DecisionCounts decisions_;                   ///< that were told
 };
 
 }  // namespace carom::ensemble

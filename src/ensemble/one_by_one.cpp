@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/index.hpp"
 #include "carom/base/error.hpp"
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/lyapunov.hpp"
@@ -18,7 +19,7 @@ namespace carom::ensemble {
 
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using base::at;
 
 }  // namespace
 

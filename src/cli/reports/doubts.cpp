@@ -21,14 +21,17 @@ namespace {
 
 bool integrated(const System& system) { return engine_of(system) != "events"; }
 
+std::string lost_text(std::uint64_t lost, const std::string& of) {
+  return fmt::format("internal error, please report it: {} {} lost", of, lost == 1 ? "is" : "are");
+}
+
 // `all`: of that many, each of them `what`.
-Doubts doubts(const System& system, std::uint64_t all, const char* what, std::uint64_t unresolved,
-              std::uint64_t lost, const Reports& reports, const EnergyError& energy) {
-  Doubts doubts{{}, unresolved + lost};
-  if (lost > 0)
-    doubts.lines.push_back(fmt::format("internal error, please report it: {} of {} {} lost",
-                                       grouped(lost), counted(all, what),
-                                       lost == 1 ? "is" : "are"));
+Doubts doubts(const System& system, std::uint64_t all, const char* what, const FateCounts& fates,
+              const Reports& reports, const EnergyError& energy) {
+  Doubts doubts{{}, fates.unresolved + fates.lost};
+  if (fates.lost > 0)
+    doubts.lines.push_back(
+        lost_text(fates.lost, fmt::format("{} of {}", grouped(fates.lost), counted(all, what))));
   if (doubts.failed > 0 && !reports.empty()) {
     const auto& [index, report] = reports.front();
     const std::string others =
@@ -36,9 +39,9 @@ Doubts doubts(const System& system, std::uint64_t all, const char* what, std::ui
                               index, grouped(doubts.failed), grouped(all))
                 : "";
     doubts.lines.push_back(std::string(shown(report)) + others);
-  } else if (unresolved > 0) {
-    doubts.lines.push_back(
-        fmt::format("{} of {} could not be followed", grouped(unresolved), counted(all, what)));
+  } else if (fates.unresolved > 0) {
+    doubts.lines.push_back(fmt::format("{} of {} could not be followed", grouped(fates.unresolved),
+                                       counted(all, what)));
   }
   if (std::string doubt = energy_doubt(system, energy); !doubt.empty())
     doubts.lines.push_back(std::move(doubt));
@@ -81,52 +84,35 @@ std::string energy_doubt(const System& system, const EnergyError& error) {
 }
 
 Doubts doubts_of(const System& system, const EscapeResult& r) {
-  return doubts(system, r.counts.trajectories, "trajectory", r.counts.unresolved, r.counts.lost,
-                r.reports, r.energy_error);
+  return doubts(system, r.counts.trajectories, "trajectory", r.counts, r.reports, r.energy_error);
 }
 Doubts doubts_of(const System& system, const DiffusionResult& r) {
-  return doubts(system, r.trajectories, "particle", r.unresolved, r.lost, r.reports,
-                r.energy_error);
+  return doubts(system, r.trajectories, "particle", r, r.reports, r.energy_error);
 }
 Doubts doubts_of(const System& system, const LyapunovResult& r) {
-  return doubts(system, r.trajectories, "particle", r.unresolved, r.lost, r.reports,
-                r.energy_error);
+  return doubts(system, r.trajectories, "particle", r, r.reports, r.energy_error);
 }
 Doubts doubts_of(const System& system, const SectionResult& r) {
-  return doubts(system, r.orbits * system.particles.size(), "particle", r.unresolved, r.lost,
-                r.reports, r.energy_error);
+  return doubts(system, r.orbits * system.particles.size(), "particle", r, r.reports,
+                r.energy_error);
 }
 Doubts doubts_of(const System& system, const SingleRunResult& r) {
-  std::uint64_t unresolved = 0, lost = 0;
+  FateCounts fates;
   EnergyError energy;
   for (const RunEnd& end : r.particles) {
-    unresolved += end.progress.fate == Fate::unresolved;
-    lost += end.progress.fate == Fate::lost;
+    fates.count(end.progress.fate);
     energy += end.energy_error;
   }
-  return doubts(system, r.particles.size(), "particle", unresolved, lost, reports_of(r), energy);
+  return doubts(system, r.particles.size(), "particle", fates, reports_of(r), energy);
 }
 
 Doubts doubts_of_failures(std::uint64_t unresolved, std::uint64_t lost) {
   Doubts doubts{{}, unresolved + lost};
-  if (lost > 0)
-    doubts.lines.push_back(fmt::format("internal error, please report it: {} {} lost",
-                                       counted(lost, "trajectory"), lost == 1 ? "is" : "are"));
+  if (lost > 0) doubts.lines.push_back(lost_text(lost, counted(lost, "trajectory")));
   if (unresolved > 0)
     doubts.lines.push_back(
         fmt::format("{} could not be followed", counted(unresolved, "trajectory")));
   return doubts;
-}
-
-void add_fates(Json& json, const FateCounts& counts) {
-  json.set("survived", counts.survived);
-  json.set("pinned", counts.pinned);
-  json.set("escaped", counts.escaped);
-  json.set("capped", counts.capped);
-  json.set("singular", counts.singular);
-  json.set("unbounded", counts.unbounded);
-  json.set("unresolved", counts.unresolved);
-  json.set("lost", counts.lost);
 }
 
 std::string fates_text(const FateCounts& counts) {
@@ -142,10 +128,6 @@ std::string fates_text(const FateCounts& counts) {
   add(counts.unresolved, fmt::format("unresolved: {}", why_unresolved));
   add(counts.lost, fmt::format("lost: {}", why_lost));
   return text;
-}
-
-Json energy_json(const EnergyError& error) {
-  return Json::object().set("end", error.end).set("largest", error.largest);
 }
 
 void add_report(Json& json, const std::string& report) {

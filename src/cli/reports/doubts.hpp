@@ -39,12 +39,8 @@ Doubts doubts_of_failures(std::uint64_t unresolved, std::uint64_t lost);
 /// "" or what is said of the energy.
 std::string energy_doubt(const System&, const EnergyError&);
 
-/// The keys `survived`, `pinned`, `escaped`, `capped`, `singular`, `unbounded`, `unresolved`,
-/// `lost`.
-void add_fates(io::Json&, const FateCounts&);
-/// The same as text, "3 escaped, 1 lost: …"; "" if no particle ended so.
+/// Fates as text, "3 escaped, 1 lost: …"; "" if no particle ended so.
 std::string fates_text(const FateCounts&);
-io::Json energy_json(const EnergyError&);
 /// `reports` of those that failed, if there are any: index, reason, and state in hexadecimal
 /// numbers.
 void add_reports(io::Json&, const Reports&);

@@ -9,6 +9,7 @@
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
+#include "io/describe/json_out.hpp"
 
 namespace carom::cli {
 
@@ -41,7 +42,7 @@ void add_end(Json& json, const System& system, const RunEnd& particle) {
   json.set("vx", particle.vx);
   json.set("vy", particle.vy);
   json.set("cell", Json::array().push(particle.cell.first).push(particle.cell.second));
-  json.set("energy_error", energy_json(particle.energy_error));
+  io::add_numbers(json, particle.energy_error);
   if (is_failure(particle.progress.fate) && !particle.report.empty())
     add_report(json, particle.report);
   const Trust& trust = particle.trust;

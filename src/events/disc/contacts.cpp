@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/index.hpp"
 #include "carom/geometry/prepared_curve.hpp"
 #include "motion/contact.hpp"
 #include "motion/free_motion.hpp"
@@ -15,7 +16,7 @@ using geometry::Vector;
 
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using base::at;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 double norm_1(Vector v) { return std::fabs(v.x) + std::fabs(v.y); }
 

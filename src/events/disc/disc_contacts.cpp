@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/index.hpp"
 #include "carom/base/error.hpp"
 #include "motion/contact.hpp"
 #include "motion/free_motion.hpp"
@@ -18,7 +19,7 @@ using geometry::Vector;
 
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using base::at;
 
 InputError refused(const char* problem, const char* expected) {
   Place place;

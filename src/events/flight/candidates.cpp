@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/index.hpp"
 #include "carom/geometry/quartic.hpp"
 #include "events/flight/bounded.hpp"
 #include "events/flight/crossing.hpp"
@@ -14,7 +15,7 @@ using namespace geometry;
 
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using base::at;
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 // nothing else.
 #include <cmath>
 
+#include "base/index.hpp"
 #include "events/flight/crossing.hpp"
 #include "events/flight/next_hit.hpp"
 
@@ -11,7 +12,7 @@ using namespace geometry;
 
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using base::at;
 
 }  // namespace
 

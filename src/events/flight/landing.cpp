@@ -2,6 +2,7 @@
 // a velocity points.
 #include <cmath>
 
+#include "base/index.hpp"
 #include "events/flight/bounded.hpp"
 #include "events/flight/crossing.hpp"
 #include "events/flight/piece_table.hpp"
@@ -12,7 +13,7 @@ using namespace geometry;
 
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using base::at;
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/index.hpp"
 #include "events/flight/bounded.hpp"
 #include "events/flight/crossing.hpp"
 
@@ -22,7 +23,7 @@ void HitFinder::look_at_cells(const Flight& f) {
 
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using base::at;
 
 /// A flight and a piece that it may leave the domain through.
 struct Meeting {

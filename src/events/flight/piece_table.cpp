@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/index.hpp"
 #include "carom/base/error.hpp"
 #include "carom/geometry/hull.hpp"
 #include "carom/geometry/lattice_copies.hpp"
@@ -19,7 +20,7 @@ using namespace geometry;
 
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using base::at;
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/index.hpp"
 #include "forces/nearest_copy.hpp"
 
 namespace carom::events {
@@ -12,7 +13,7 @@ using geometry::Vector;
 
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using base::at;
 
 double speed_of(const State& s) { return std::sqrt(dot(s.velocity, s.velocity)); }
 

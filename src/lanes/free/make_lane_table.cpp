@@ -1,5 +1,6 @@
 #include "lanes/free/make_lane_table.hpp"
 
+#include "base/index.hpp"
 #include "lanes/free/exit_by_signs.hpp"
 #include "table/thin_walls.hpp"
 
@@ -16,7 +17,7 @@ using geometry::Vector;
 
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using base::at;
 
 /// The parts of a wall between the ends of its holes.
 struct Part {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/index.hpp"
 #include "carom/base/elementary.hpp"
 #include "carom/events/report.hpp"
 #include "carom/integrators/scheme.hpp"
@@ -21,7 +22,7 @@ using integrators::Stage;
 namespace {
 
 constexpr Time never{std::numeric_limits<double>::infinity()};
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using base::at;
 
 SoftKernel kernel_for(InstructionSet set) {
   if (!available(set))
