@@ -34,6 +34,7 @@
 #include "carom/ensemble/engine.hpp"
 #include "carom/ensemble/escape.hpp"
 #include "carom/ensemble/injection.hpp"
+#include "carom/ensemble/kinds.hpp"
 #include "carom/ensemble/lyapunov.hpp"
 #include "carom/ensemble/orbit_search.hpp"
 #include "carom/ensemble/parts.hpp"

@@ -8,9 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "carom/ensemble/diffusion.hpp"
-#include "carom/ensemble/escape.hpp"
-#include "carom/ensemble/lyapunov.hpp"
+#include "carom/ensemble/kinds.hpp"
 #include "carom/ensemble/run_rows.hpp"
 #include "carom/ensemble/section_run.hpp"
 #include "carom/ensemble/single_run.hpp"
@@ -156,11 +154,6 @@ std::string text_of(const Shard&);  ///< "2/8"
 /// Part `k` of `of` as it is written: "2/8". Throws InputError for anything else.
 Shard shard_of(const std::string& text, const Place&);
 
-/// Kinds of ensembles that can be continued, parted and merged, as archives name them.
-inline const char* kind_of(const EscapeResult&) { return "escape"; }
-inline const char* kind_of(const DiffusionResult&) { return "diffusion"; }
-inline const char* kind_of(const LyapunovResult&) { return "lyapunov"; }
-
 /// An ensemble as its archive holds it, or the checkpoint of one that has not ended.
 struct StoredEnsemble {
   std::string file;  ///< that was read: FILE or the checkpoint in FILE.part
@@ -256,9 +249,9 @@ class EnsembleArchive : public EnsembleJournal<Result> {
   class Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
-extern template class EnsembleArchive<EscapeResult>;
-extern template class EnsembleArchive<DiffusionResult>;
-extern template class EnsembleArchive<LyapunovResult>;
+#define CAROM_MADE_ELSEWHERE(Result) extern template class EnsembleArchive<Result>;
+CAROM_FOR_ENSEMBLES(CAROM_MADE_ELSEWHERE)
+#undef CAROM_MADE_ELSEWHERE
 
 /// The points of a section, orbit after orbit; written aside, and renamed when finished.
 class SectionArchive {

@@ -124,14 +124,12 @@ EnsembleJob<Result> job_of(const Options& options, Sharing sharing) {
   refuse_existing(job.output, options.force);
   return job;
 }
-template EnsembleJob<EscapeResult> job_of(const Options&, Sharing);
-template EnsembleJob<DiffusionResult> job_of(const Options&, Sharing);
-template EnsembleJob<LyapunovResult> job_of(const Options&, Sharing);
+#define CAROM_MAKE(Result) template EnsembleJob<Result> job_of(const Options&, Sharing);
+CAROM_FOR_ENSEMBLES(CAROM_MAKE)
+#undef CAROM_MAKE
 
 bool is_plain_ensemble(const Options& options) {
-  const bool adds_up = options.command == "escape" || options.command == "diffusion" ||
-                       options.command == "lyapunov";
-  return adds_up && options.splitting.empty();
+  return is_ensemble(options.command) && options.splitting.empty();
 }
 
 void refuse_parts_of_others(const Options& options) {

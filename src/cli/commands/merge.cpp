@@ -100,12 +100,9 @@ int merge_sweeps(const Options& options, const std::string& output,
   io::keep_plan(output, merged.plan);
   int worst = done;
   try {
-    if (merged.plan.command == kind_of(DiffusionResult()))
-      worst = merge_values<DiffusionResult>(options, output, files, merged);
-    else if (merged.plan.command == kind_of(LyapunovResult()))
-      worst = merge_values<LyapunovResult>(options, output, files, merged);
-    else
-      worst = merge_values<EscapeResult>(options, output, files, merged);
+    for_kind(merged.plan.command, [&]<class Result>(std::type_identity<Result>) {
+      worst = merge_values<Result>(options, output, files, merged);
+    });
     if (const auto error = why_nothing(merged)) throw *error;
     end_sweep(options, merged, output, {});
   } catch (...) {
@@ -130,12 +127,11 @@ int merge(const Options& options) {
   ArchiveLock lock = lock_output(options, output);
   refuse_existing(output, options.force);
   if (io::is_sweep_archive(files.front())) return merge_sweeps(options, output, files);
-  const std::string kind = kind_of_ensemble(files.front());
-  if (kind == kind_of(DiffusionResult()))
-    return merge_parts<DiffusionResult>(options, output, files, {}, std::move(lock));
-  if (kind == kind_of(LyapunovResult()))
-    return merge_parts<LyapunovResult>(options, output, files, {}, std::move(lock));
-  return merge_parts<EscapeResult>(options, output, files, {}, std::move(lock));
+  int status = done;
+  for_kind(kind_of_ensemble(files.front()), [&]<class Result>(std::type_identity<Result>) {
+    status = merge_parts<Result>(options, output, files, {}, std::move(lock));
+  });
+  return status;
 }
 
 }  // namespace carom::cli

@@ -6,9 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "carom/ensemble/diffusion.hpp"
-#include "carom/ensemble/escape.hpp"
-#include "carom/ensemble/lyapunov.hpp"
+#include "carom/ensemble/kinds.hpp"
 #include "io/archive/archive_file.hpp"
 #include "io/archive/fields.hpp"
 

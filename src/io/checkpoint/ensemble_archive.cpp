@@ -211,9 +211,9 @@ std::uint64_t EnsembleArchive<Result>::kept() const {
   return implementation_->kept;
 }
 
-template class EnsembleArchive<EscapeResult>;
-template class EnsembleArchive<DiffusionResult>;
-template class EnsembleArchive<LyapunovResult>;
+#define CAROM_MAKE(Result) template class EnsembleArchive<Result>;
+CAROM_FOR_ENSEMBLES(CAROM_MAKE)
+#undef CAROM_MAKE
 
 std::string text_of(const Shard& shard) { return fmt::format("{}/{}", shard.k, shard.of); }
 

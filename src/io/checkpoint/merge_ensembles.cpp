@@ -186,14 +186,11 @@ void write_sum(const std::string& path, const LoadedSystem& loaded, const Proven
   give_up_checkpoint(path);
 }
 
-template SumOfParts<EscapeResult> sum_of(const std::vector<std::string>&, const Shard&);
-template SumOfParts<DiffusionResult> sum_of(const std::vector<std::string>&, const Shard&);
-template SumOfParts<LyapunovResult> sum_of(const std::vector<std::string>&, const Shard&);
-template void write_sum(const std::string&, const LoadedSystem&, const Provenance&,
-                        const SumOfParts<EscapeResult>&, ArchiveLock);
-template void write_sum(const std::string&, const LoadedSystem&, const Provenance&,
-                        const SumOfParts<DiffusionResult>&, ArchiveLock);
-template void write_sum(const std::string&, const LoadedSystem&, const Provenance&,
-                        const SumOfParts<LyapunovResult>&, ArchiveLock);
+#define CAROM_MAKE(Result)                                                            \
+  template SumOfParts<Result> sum_of(const std::vector<std::string>&, const Shard&);  \
+  template void write_sum(const std::string&, const LoadedSystem&, const Provenance&, \
+                          const SumOfParts<Result>&, ArchiveLock);
+CAROM_FOR_ENSEMBLES(CAROM_MAKE)
+#undef CAROM_MAKE
 
 }  // namespace carom

@@ -85,12 +85,6 @@ SumOfParts<Result> sum_of_ranks(const std::string& file, const std::vector<std::
   sum.result.seconds = before + together;
   return sum;
 }
-template SumOfParts<EscapeResult> sum_of_ranks(const std::string&, const std::vector<std::string>&,
-                                               const Shard&);
-template SumOfParts<DiffusionResult> sum_of_ranks(const std::string&,
-                                                  const std::vector<std::string>&, const Shard&);
-template SumOfParts<LyapunovResult> sum_of_ranks(const std::string&,
-                                                 const std::vector<std::string>&, const Shard&);
 
 template <class Result>
 void gather_parts(const std::string& file, bool whole, ArchiveLock lock) {
@@ -130,8 +124,11 @@ void gather_parts(const std::string& file, bool whole, ArchiveLock lock) {
   }
   give_up_checkpoint(file);
 }
-template void gather_parts<EscapeResult>(const std::string&, bool, ArchiveLock);
-template void gather_parts<DiffusionResult>(const std::string&, bool, ArchiveLock);
-template void gather_parts<LyapunovResult>(const std::string&, bool, ArchiveLock);
+#define CAROM_MAKE(Result)                                                                      \
+  template SumOfParts<Result> sum_of_ranks(const std::string&, const std::vector<std::string>&, \
+                                           const Shard&);                                       \
+  template void gather_parts<Result>(const std::string&, bool, ArchiveLock);
+CAROM_FOR_ENSEMBLES(CAROM_MAKE)
+#undef CAROM_MAKE
 
 }  // namespace carom::io

@@ -216,13 +216,12 @@ template <class Result>
 void check_stored(const Stored<Result>& stored, const System& system) {
   check_stored(stored, stored.result, system);
 }
-template void check_stored(const Stored<EscapeResult>&, const System&);
-template void check_stored(const Stored<DiffusionResult>&, const System&);
-template void check_stored(const Stored<LyapunovResult>&, const System&);
 
-template Stored<EscapeResult> read_ensemble(const std::string&);
-template Stored<DiffusionResult> read_ensemble(const std::string&);
-template Stored<LyapunovResult> read_ensemble(const std::string&);
+#define CAROM_MAKE(Result)                                          \
+  template void check_stored(const Stored<Result>&, const System&); \
+  template Stored<Result> read_ensemble(const std::string&);
+CAROM_FOR_ENSEMBLES(CAROM_MAKE)
+#undef CAROM_MAKE
 
 bool is_complete(const std::string& file) {
   hdf5::silence();
@@ -241,8 +240,7 @@ std::string kind_of_ensemble(const std::string& file) {
   else if (const std::vector<std::string> parts = parts_of_ranks(name); !parts.empty())
     return kind_of_ensemble(parts.front());
   const std::string kind = kind_in(open_ensemble(name), name);
-  if (kind != kind_of(EscapeResult()) && kind != kind_of(DiffusionResult()) &&
-      kind != kind_of(LyapunovResult()))
+  if (!is_ensemble(kind))
     throw InputError(Place{name, 0, 0, ""}, "the archive does not hold an ensemble",
                      "one written by carom escape, carom diffusion or carom lyapunov");
   return kind;

@@ -18,11 +18,10 @@ void read_counts(hid_t file, const std::string& name, Result& result) {
   ensemble::describe(in, result, System());
 }
 
-template void write_counts(const ArchiveFile&, const EscapeResult&, const System&);
-template void write_counts(const ArchiveFile&, const DiffusionResult&, const System&);
-template void write_counts(const ArchiveFile&, const LyapunovResult&, const System&);
-template void read_counts(hid_t, const std::string&, EscapeResult&);
-template void read_counts(hid_t, const std::string&, DiffusionResult&);
-template void read_counts(hid_t, const std::string&, LyapunovResult&);
+#define CAROM_MAKE(Result)                                                      \
+  template void write_counts(const ArchiveFile&, const Result&, const System&); \
+  template void read_counts(hid_t, const std::string&, Result&);
+CAROM_FOR_ENSEMBLES(CAROM_MAKE)
+#undef CAROM_MAKE
 
 }  // namespace carom::io
