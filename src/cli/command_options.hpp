@@ -30,6 +30,11 @@ class Command {
     });
     return *this;
   }
+  /// An option of tests, which no help shows.
+  Command& for_tests(const char* name, std::string& value) {
+    app_->add_option(name, value)->group("");
+    return *this;
+  }
   Command& flag(const char* name, bool& value, const char* help) {
     app_->add_flag(name, value, help)->disable_flag_override();
     return *this;
@@ -124,12 +129,10 @@ class Command {
   Command& parts() {
     text("--resume", options_.resume, "FILE.h5",
          "Go on with a stored ensemble; SYSTEM may be left out");
-    text("--checkpoint", options_.checkpoint, "SECONDS|blocks:N",
-         "Time, or number of blocks, between checkpoints of an archive (default 10 s)");
+    text("--checkpoint", options_.checkpoint, "SECONDS",
+         "Time between checkpoints of an archive (default 10 s)");
     text("--shard", options_.shard, "K/N", "Only part K (from 1) of N parts of the trajectories");
-    text("--block", options_.block, "N",
-         "Trajectories a block (default 1024); the result does not depend on it");
-    return *this;
+    return for_tests("--block", options_.block);
   }
 
  private:

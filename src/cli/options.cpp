@@ -121,8 +121,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
             "With --splitting: populations for each kick (default 16)")
       .text("--kick", o.kick, "DELTA",
             "With --splitting: the largest kick (default: chosen by a first population)")
-      .text("--lookback", o.lookback, "N",
-            "With --splitting: hits that a copy goes back (default 6)");
+      .for_tests("--lookback", o.lookback);
   Command(app, o, "run", "Follow one trajectory and store every hit",
           "Examples:\n"
           "  carom run mushroom --trajectory 7 --t-max 100\n"
@@ -352,6 +351,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
 CommandRow row_of(const CLI::App& app) {
   CommandRow row{app.get_name(), app.get_description(), app.get_footer(), {}, {}, false};
   for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group().empty()) continue;  // for tests
     const std::string value = option->get_type_size() > 0 ? option->get_type_name() : "";
     if (option->get_positional()) {
       row.arguments.push_back({{option->get_name(true)}, "", option->get_description()});

@@ -22,8 +22,8 @@ using geometry::Vector;
 namespace {
 
 constexpr double wanted_energy_error = 1e-10;
-constexpr int most_pilots = 16, steps_of_a_pilot = 100, looks = 10;
-/// Evaluations of pair forces that all pilots of one step may cost.
+constexpr int most_trials = 16, steps_of_a_trial = 100, looks = 10;
+/// Evaluations of pair forces that all trial runs of one step may cost.
 constexpr double affordable = 2e7;
 /// Meshes of forces that are bounded for all steps together; no step needs as many, but a force of
 /// thousands of narrow parts may.
@@ -39,16 +39,16 @@ double step_number(int n) {
   return std::stod(std::string(digits[n - 3 * k]) + "e" + std::to_string(k));
 }
 
-class Pilots {
+class TrialRuns {
  public:
-  Pilots(const System& system, const std::function<bool()>& stopped)
+  TrialRuns(const System& system, const std::function<bool()>& stopped)
       : system_(system), stopped_(stopped), sampler_(system_, stopped) {
     const double n = static_cast<double>(system.particles.size());
     const double each = 11.0 * n * std::max(1.0, 0.5 * (n - 1.0));
     count_ =
-        std::clamp(static_cast<int>(affordable / (each * 10.0 * steps_of_a_pilot)), 1, most_pilots);
+        std::clamp(static_cast<int>(affordable / (each * 10.0 * steps_of_a_trial)), 1, most_trials);
     length_ =
-        std::clamp(static_cast<int>(affordable / (each * 10.0 * count_)), 10, steps_of_a_pilot);
+        std::clamp(static_cast<int>(affordable / (each * 10.0 * count_)), 10, steps_of_a_trial);
   }
 
   /// The largest error of the energy within many steps of h0, with steps of h; nothing where a step
@@ -157,7 +157,7 @@ bool turn_allowed(const System& system, double step) {
 }
 
 ChosenStep choose_step(const System& system, const std::function<bool()>& stopped) {
-  Pilots pilots(system, stopped);
+  TrialRuns trials(system, stopped);
   const World world(*system.table);
   const double longest = std::min(system.run.t_max, 1e15);
   int n = 0;
@@ -171,13 +171,13 @@ ChosenStep choose_step(const System& system, const std::function<bool()>& stoppe
     const double h = step_number(n);
     if (h > longest || !turn_allowed(system, h)) continue;
     if (!(at_start > 0.0)) {
-      if (!pilots.resolve(h, h) ||
-          !resolves_region(system, world, pilots.highest_energy(), h, meshes))
+      if (!trials.resolve(h, h) ||
+          !resolves_region(system, world, trials.highest_energy(), h, meshes))
         continue;
       at_start = h;
     }
     if (h < shortest_resolved * at_start || h < shortest * resolved) break;
-    const std::optional<double> error = pilots.energy_error(h, at_start);
+    const std::optional<double> error = trials.energy_error(h, at_start);
     if (!error) continue;
     if (!(resolved > 0.0)) resolved = h;
     if (*error < best.energy_error) best = {h, *error};
@@ -185,7 +185,7 @@ ChosenStep choose_step(const System& system, const std::function<bool()>& stoppe
   }
   if (!(best.step > 0.0))
     throw InputError(Place{{}, 0, 0, "integrator.step"},
-                     "no step resolves the forces: " + pilots.report(),
+                     "no step resolves the forces: " + trials.report(),
                      "a softer potential, or a step that you choose");
   return best;
 }

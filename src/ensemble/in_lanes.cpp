@@ -28,7 +28,7 @@ InLanes::InLanes(const System& system, const EngineOptions& options, const World
     lanes_->report_hits([this](std::uint64_t tag, const State& state, std::uint64_t hits) {
       const Trajectory& trajectory = flight(tag).trajectory;
       listener_->hit(trajectory, static_cast<int>(particle_of(tag)), state, hits);
-      return !listener_->enough(trajectory);
+      return !listener_->stop(trajectory);
     });
 }
 

@@ -34,7 +34,7 @@ OneByOne::OneByOne(const System& system, const EngineOptions& options, World wor
   if (options_.energy) world_.watch_energy();
   if (options_.surface) world_.watch(options_.surface, options_.most_crossings);
   if (options_.hits || options_.surface)
-    world_.stop_when([this] { return listener_->enough(trajectory_); });
+    world_.stop_when([this] { return listener_->stop(trajectory_); });
 }
 
 void OneByOne::make_groups() {

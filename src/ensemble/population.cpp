@@ -71,7 +71,7 @@ class Population::Flights : public Starts, public Listener {
     mine.member->memory.keep(state, hits, {mine.tangent.deviation[0], mine.tangent.shrunk[0]});
     mine.there = is_there(hits, state.time);
   }
-  bool enough(const Trajectory& t) override { return under_way_[t.slot].there; }
+  bool stop(const Trajectory& t) override { return under_way_[t.slot].there; }
   void end(const Trajectory& t, const TrajectoryEnd& end) override {
     const ParticleEnd& particle = end.particles.front();
     OnItsWay& mine = under_way_[t.slot];
@@ -103,7 +103,7 @@ class Population::Flights : public Starts, public Listener {
       case Fate::capped:
         return Way::reached;
       case Fate::pinned:
-        return Way::for_ever;
+        return Way::trapped;
       case Fate::escaped:
       case Fate::unbounded:
         return Way::gone;
@@ -262,7 +262,7 @@ void Population::count(const Stage& stage, std::size_t number) {
       case Way::reached:
         survivors_.push_back(i);
         break;
-      case Way::for_ever:
+      case Way::trapped:
         ++stay;
         break;
       case Way::gone:
@@ -276,11 +276,11 @@ void Population::count(const Stage& stage, std::size_t number) {
   }
   result_.reached.push_back(survivors_.size());
   result_.singular += share(ended);
-  for_ever_ += share(stay);
+  trapped_ += share(stay);
   if (by_time())
     report_times(stage.level);
   else
-    result_.survival[number] = share(survivors_.size()) + for_ever_;
+    result_.survival[number] = share(survivors_.size()) + trapped_;
   before_ = stage.level;
   share_of_stage_ = share(survivors_.size());
   if (!plan_.deviations) return;
@@ -347,7 +347,7 @@ bool Population::separate_copies(const Stage& stage, double shrink) {
 /// Reports before_ < t <= to: what has gone later is known by now, and so is what is still there.
 void Population::report_times(double to) {
   std::uint64_t later = survivors_.size() + going_.back();
-  double of_others = for_ever_ + gone_by_.back();
+  double of_others = trapped_ + gone_by_.back();
   for (std::size_t i = reports_.size(); i-- > 0;) {
     if (reports_[i] <= before_) break;
     if (reports_[i] <= to) result_.survival[i] = share(later) + of_others;
@@ -366,7 +366,7 @@ void Population::finish() {
   }
   if (by_time()) result_.gone.assign(gone_by_.begin(), gone_by_.end() - 1);
   for (double& p : result_.gone) p /= followed;
-  result_.for_ever = for_ever_;
+  result_.trapped = trapped_;
   result_.done = true;
 }
 
@@ -381,7 +381,7 @@ PopulationRun Population::run(std::uint64_t repetition, std::size_t kick_number,
   gone_by_.assign(reports_.size() + 1, 0.0);
   share_of_stage_ = 1.0;
   log_share_ = 0.0;
-  for_ever_ = 0.0;
+  trapped_ = 0.0;
   before_ = -1.0;
   first_loss_ = reports_.size();
   try {

@@ -55,7 +55,7 @@ class Population {
     /// memory.
     const Moment& ago(std::size_t back) const;
   };
-  enum class Way { reached, gone, for_ever, ended };
+  enum class Way { reached, gone, trapped, ended };
   /// A trajectory; all of a population have the same share of the whole.
   struct Member {
     State state;
@@ -110,7 +110,7 @@ class Population {
   std::vector<std::size_t> survivors_;  // of a stage, among its members
   double share_of_stage_ = 1.0;         // that all trajectories of the stage stand for
   double log_share_ = 0.0;              // its logarithm, which does not underflow
-  double for_ever_ = 0.0;               // share that cannot go any more
+  double trapped_ = 0.0;                // share that cannot go any more
   double before_ = -1.0;                // the level where the stage began
   std::size_t first_loss_ = 0;          // the first report by which a trajectory has gone
   std::vector<double>

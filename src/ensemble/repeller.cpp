@@ -190,7 +190,7 @@ std::optional<RepellerExponent> measure_repeller(const System& system, TimeWindo
   out.kick = result.plan.kick;
   out.kick_cost = cost_of_kicks(result, last);
   for (const auto& runs : result.runs)
-    for (const PopulationRun& run : runs) out.for_ever = std::max(out.for_ever, run.for_ever);
+    for (const PopulationRun& run : runs) out.trapped = std::max(out.trapped, run.trapped);
   return out;
 }
 

@@ -101,7 +101,7 @@ class Follower : public Listener {
   void particle_end(const Trajectory& t, int particle, Fate fate) override {
     recorders_[t.slot].end(particle, fate);
   }
-  bool enough(const Trajectory& t) override { return recorders_[t.slot].done(); }
+  bool stop(const Trajectory& t) override { return recorders_[t.slot].done(); }
   void end(const Trajectory& t, const TrajectoryEnd& end) override {
     const std::vector<SectionPoint>& points = recorders_[t.slot].points();
     count(t.number, points, end);

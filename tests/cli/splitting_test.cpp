@@ -79,7 +79,7 @@ TEST(SplittingCommand, RefusesWhatItCannotDo) {
                                      {"--splitting hits:1,2 --times 1,2", "--times"},
                                      {"--kick 0.1", "--kick"},
                                      {"--population 100", "--population"},
-                                     {"--digits 10", "--digits"}}) {
+                                     {"--digits"}}) {
     const Outcome o = shell(std::string("$carom escape magnetic-square ") + options);
     EXPECT_EQ(o.status, 1) << options;
     EXPECT_EQ(o.out, "") << options;

@@ -105,7 +105,7 @@ class Log : public Listener {
     note(t, s);
     lines[t.number].back() += " sample " + std::to_string(number);
   }
-  bool enough(const Trajectory& t) override { return hits_[t.number] >= most; }
+  bool stop(const Trajectory& t) override { return hits_[t.number] >= most; }
   void end(const Trajectory& t, const TrajectoryEnd& end) override {
     const ParticleEnd& p = end.particles.front();
     note(t, p.state);

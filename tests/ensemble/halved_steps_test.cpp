@@ -15,7 +15,7 @@
 namespace carom {
 namespace {
 
-/// The start is in a bump that asks for short steps. So pilot orbits end before the second one, a
+/// The start is in a bump that asks for short steps. So trial runs end before the second one, a
 /// twentieth as wide, is met at t = 4.
 std::string two_bumps(const std::string& integrator) {
   return "[[potential]]\nkind = \"expression\"\nexpression = \"0.1*exp(-(x^2+y^2)/(2*0.02^2)) + "

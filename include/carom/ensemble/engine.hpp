@@ -80,7 +80,7 @@ class Listener {
   virtual void particle_end(const Trajectory&, int /*particle*/, Fate) {}
   /// Is the rest of the trajectory of no interest? Asked after hits and crossings; it then ends
   /// there.
-  virtual bool enough(const Trajectory&) { return false; }
+  virtual bool stop(const Trajectory&) { return false; }
   virtual void end(const Trajectory&, const TrajectoryEnd&) = 0;
 };
 

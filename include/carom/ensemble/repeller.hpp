@@ -21,7 +21,7 @@ struct RepellerExponent {
   double time_from = 0.0, time = 0.0;  ///< the mean times of both
   double kick = 0.0;                   ///< the largest
   Mean kick_cost;                      ///< as cost_of_kicks, at the last level
-  double for_ever = 0.0;               ///< share of the starts that can never leave
+  double trapped = 0.0;                ///< share of the starts that can never leave
 
   /// Standard error, extrapolation included.
   Estimate estimate() const;
@@ -44,7 +44,7 @@ struct Fields<RepellerExponent> {
           [](auto& r) -> auto& { return r.kick_cost.error; }),
       field("time_from", "time", "Mean time at the start of the window", &R::time_from),
       field("time_to", "time", "Mean time at its end", &R::time),
-      field("for_ever", "1", "Share of the starts that can never leave", &R::for_ever),
+      field("trapped", "1", "Share of the starts that can never leave", &R::trapped),
       field("population", "1", "Trajectories of each population", &R::population),
       field("hits_from", "1", "Hits at the start of the window", &R::hits_from),
       field("hits_to", "1", "Hits at its end", &R::hits),

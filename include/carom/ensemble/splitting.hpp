@@ -88,7 +88,7 @@ struct PopulationRun {
   std::vector<std::uint64_t> reached;  ///< trajectories that reached each level
   std::vector<CopiesOfStage> copies;   ///< of each stage; none are kicked before the first
   std::vector<GrowthAtLevel> growth;   ///< at each level, if deviations go along
-  double for_ever = 0.0;               ///< share that can never go
+  double trapped = 0.0;                ///< share that can never go
   double singular = 0.0;  ///< share that ended without a continuation; taken out of the others
   std::uint64_t collisions = 0, unresolved = 0, lost = 0, digest = 0;
   std::uint64_t tried = 0,

@@ -151,12 +151,11 @@ CheckpointInterval checkpoint_interval(const std::string& text) {
   try {
     interval.seconds = ExactNumber(text, place_of(option)).to_double();
   } catch (const InputError&) {
-    interval.seconds = 0;  // no number: the message below names both forms
+    interval.seconds = 0;  // no number: the message below
   }
   if (!(interval.seconds > 0.0 && interval.seconds < 1e9))
-    throw InputError(place_of(option),
-                     fmt::format("'{}' is neither a time between checkpoints nor blocks:N", text),
-                     "seconds, more than 0 and less than 1e9, or blocks:N");
+    throw InputError(place_of(option), fmt::format("'{}' is no time between checkpoints", text),
+                     "seconds, more than 0 and less than 1e9");
   return interval;
 }
 

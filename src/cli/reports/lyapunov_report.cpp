@@ -103,10 +103,10 @@ void add_notes_of(const RepellerExponent& r, std::vector<std::string>& notes) {
         fmt::format("kicked copies do not stay as long as others: the share that is left is off by "
                     "{}({}) %, and the exponent by an unknown part of that",
                     in_percent(r.kick_cost.value), in_percent(r.kick_cost.error, 1)));
-  if (r.for_ever > 0.0)
+  if (r.trapped > 0.0)
     notes.push_back(
         fmt::format("a share {:.2g} of the starts can never leave: it is not among the populations",
-                    r.for_ever));
+                    r.trapped));
 }
 
 Json repeller_json(const RepellerExponent& r) {
@@ -135,7 +135,7 @@ Json repeller_json(const RepellerExponent& r) {
       .set("kick", r.kick)
       .set("kick_cost",
            Json::object().set("value", r.kick_cost.value).set("stderr", r.kick_cost.error))
-      .set("for_ever", r.for_ever);
+      .set("trapped", r.trapped);
 }
 
 std::string repeller_text(const RepellerExponent& r) {
