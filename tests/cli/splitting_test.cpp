@@ -78,8 +78,7 @@ TEST(SplittingCommand, RefusesWhatItCannotDo) {
                                      {"--splitting 1,2 --isa baseline", "--isa"},
                                      {"--splitting hits:1,2 --times 1,2", "--times"},
                                      {"--kick 0.1", "--kick"},
-                                     {"--population 100", "--population"},
-                                     {"--digits"}}) {
+                                     {"--population 100", "--population"}}) {
     const Outcome o = shell(std::string("$carom escape magnetic-square ") + options);
     EXPECT_EQ(o.status, 1) << options;
     EXPECT_EQ(o.out, "") << options;
