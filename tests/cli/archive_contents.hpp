@@ -27,7 +27,7 @@ inline std::string bytes_of(hid_t type, hid_t space, const std::function<void(vo
   if (count > 0) read(bytes.data());
   if (H5Tis_variable_str(type) > 0) {
     std::vector<char*> texts(count);
-    std::memcpy(texts.data(), bytes.data(), count * sizeof(char*));
+    if (count > 0) std::memcpy(texts.data(), bytes.data(), count * sizeof(char*));
     bytes.clear();
     for (char* text : texts) {
       bytes.append(text ? text : "").push_back('\0');

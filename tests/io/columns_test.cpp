@@ -77,7 +77,9 @@ class ColumnsOfAFile {
     const auto same = [&]<class T>(const char* name, const std::vector<T>& values) {
       const auto read = read_column<T>(file_.get(), name, path_);
       ASSERT_EQ(read.size(), values.size()) << name;
-      EXPECT_EQ(std::memcmp(read.data(), values.data(), values.size() * sizeof(T)), 0) << name;
+      EXPECT_TRUE(values.empty() ||
+                  std::memcmp(read.data(), values.data(), values.size() * sizeof(T)) == 0)
+          << name;
     };
     same("noise", rows.noise);
     same("ends", rows.ends);
