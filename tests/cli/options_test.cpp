@@ -13,8 +13,7 @@ namespace {
 TEST(OptionNames, ACheckpointIsATimeOrANumberOfBlocks) {
   const Shell shell;
   for (const char* command : {"escape", "diffusion"})
-    EXPECT_NE(shell(std::string("$carom ") + command + " --help")
-                  .out.find("--checkpoint SECONDS"),
+    EXPECT_NE(shell(std::string("$carom ") + command + " --help").out.find("--checkpoint SECONDS"),
               std::string::npos);
   for (const char* typed : {"Blocks:3", "block:3", "3s", "0"}) {
     const Outcome o = shell(
