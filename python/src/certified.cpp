@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "analyses/run/command_certified.hpp"
 #include "beside.hpp"
+#include "carom/analyses/run/certified_archive.hpp"
 #include "carom/base/error.hpp"
+#include "carom/base/stopwatch.hpp"
 #include "carom/certify/certified_orbit.hpp"
-#include "carom/ensemble/stopwatch.hpp"
-#include "carom/io/certified_archive.hpp"
-#include "cli/commands/run_certified.hpp"
 #include "cli/common.hpp"
 #include "loaded.hpp"
 

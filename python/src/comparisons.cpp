@@ -5,12 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "analyses/compare/command.hpp"
+#include "analyses/compare/report.hpp"
 #include "beside.hpp"
-#include "carom/io/comparison_archive.hpp"
+#include "carom/analyses/compare/archive.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/commands/compare.hpp"
 #include "cli/common.hpp"
-#include "cli/reports/compare_report.hpp"
 #include "cli/reports/scheme_report.hpp"
 #include "loaded.hpp"
 

@@ -6,17 +6,19 @@
 #include <utility>
 #include <vector>
 
+#include "analyses/diffusion/report.hpp"
+#include "analyses/escape/report.hpp"
+#include "analyses/lyapunov/report.hpp"
 #include "arrays.hpp"
 #include "beside.hpp"
-#include "carom/ensemble/diffusion.hpp"
-#include "carom/ensemble/escape.hpp"
-#include "carom/ensemble/lyapunov.hpp"
-#include "carom/io/archive.hpp"
+#include "carom/analyses/kinds.hpp"
+#include "carom/analyses/diffusion.hpp"
+#include "carom/analyses/escape.hpp"
+#include "carom/analyses/lyapunov.hpp"
+#include "carom/files/archive.hpp"
+#include "carom/files/ensembles.hpp"
 #include "cli/common.hpp"
-#include "cli/reports/diffusion_report.hpp"
 #include "cli/reports/doubts.hpp"
-#include "cli/reports/escape_report.hpp"
-#include "cli/reports/lyapunov_report.hpp"
 #include "loaded.hpp"
 
 namespace py = pybind11;

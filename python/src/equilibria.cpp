@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "analyses/relax/report.hpp"
 #include "beside.hpp"
-#include "carom/io/relax_archive.hpp"
+#include "carom/analyses/relax/archive.hpp"
 #include "cli/common.hpp"
-#include "cli/reports/relax_report.hpp"
 #include "loaded.hpp"
 
 namespace py = pybind11;

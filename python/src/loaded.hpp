@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "carom/io/system_file.hpp"
+#include "carom/files/system_file.hpp"
 #include "cli/options.hpp"
 
 namespace carom::python {

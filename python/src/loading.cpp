@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "carom/base/error.hpp"
-#include "carom/ensemble/stopwatch.hpp"
+#include "carom/base/stopwatch.hpp"
 #include "cli/command_table.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/table_report.hpp"
-#include "io/text_file.hpp"
+#include "files/text_file.hpp"
 #include "loaded.hpp"
 
 namespace py = pybind11;
@@ -108,8 +108,8 @@ void add_loading(py::module_& module) {
         std::string text;
         {
           const py::gil_scoped_release release;
-          text =
-              io::text_of_file(file, io::most_of_system_file, {file, 0, 0, ""}, "", "a TOML file");
+          text = files::text_of_file(file, files::most_of_system_file, {file, 0, 0, ""}, "",
+                                     "a TOML file");
         }
         return py::bytes(text);
       },

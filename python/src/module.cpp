@@ -5,8 +5,8 @@
 
 #include "base/printable.hpp"
 #include "carom/base/error.hpp"
-#include "carom/ensemble/sampler.hpp"
-#include "carom/io/archive.hpp"
+#include "carom/files/archive.hpp"
+#include "carom/starts/sampler.hpp"
 #include "carom_version.hpp"
 #include "loaded.hpp"
 

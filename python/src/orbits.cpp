@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "analyses/orbits/command.hpp"
+#include "analyses/orbits/report.hpp"
 #include "beside.hpp"
-#include "carom/io/archive.hpp"
-#include "carom/io/orbit_archive.hpp"
-#include "cli/commands/orbit.hpp"
+#include "carom/analyses/orbits/archive.hpp"
+#include "carom/files/archive.hpp"
 #include "cli/common.hpp"
-#include "cli/reports/orbit_report.hpp"
 #include "loaded.hpp"
 
 namespace py = pybind11;

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "arrays.hpp"
-#include "carom/ensemble/run_rows.hpp"
-#include "carom/ensemble/sampler.hpp"
+#include "carom/analyses/run/rows.hpp"
 #include "carom/events/world.hpp"
 #include "carom/forces/force_field.hpp"
 #include "carom/geometry/curve_frame.hpp"
+#include "carom/starts/sampler.hpp"
 #include "carom/table/table.hpp"
 #include "loaded.hpp"
 #include "motion/free_motion.hpp"

@@ -5,9 +5,9 @@
 #include <memory>
 #include <utility>
 
+#include "analyses/splitting/command.hpp"
 #include "beside.hpp"
-#include "carom/ensemble/splitting.hpp"
-#include "cli/commands/splitting.hpp"
+#include "carom/analyses/splitting.hpp"
 #include "cli/common.hpp"
 #include "loaded.hpp"
 

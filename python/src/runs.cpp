@@ -9,21 +9,24 @@
 #include <utility>
 #include <vector>
 
+#include "analyses/run/report.hpp"
+#include "analyses/run/stored_run.hpp"
+#include "analyses/section/report.hpp"
 #include "arrays.hpp"
 #include "beside.hpp"
-#include "carom/analysis/section.hpp"
+#include "carom/analyses/run.hpp"
+#include "carom/analyses/run/archive.hpp"
+#include "carom/analyses/run/rows.hpp"
+#include "carom/analyses/section.hpp"
+#include "carom/analyses/section/archive.hpp"
 #include "carom/base/error.hpp"
-#include "carom/ensemble/run_rows.hpp"
-#include "carom/ensemble/sampler.hpp"
-#include "carom/ensemble/section_run.hpp"
-#include "carom/ensemble/single_run.hpp"
 #include "carom/events/world.hpp"
-#include "carom/io/archive.hpp"
+#include "carom/files/archive.hpp"
+#include "carom/files/ensembles.hpp"
+#include "carom/starts/sampler.hpp"
+#include "carom/system/section.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/doubts.hpp"
-#include "cli/reports/run_report.hpp"
-#include "cli/reports/section_report.hpp"
-#include "io/archive/stored_run.hpp"
 #include "loaded.hpp"
 
 namespace py = pybind11;
@@ -207,7 +210,7 @@ RunOutcome open_run(const std::string& file) {
   system.name = stored.system_name;
   loaded->options.command = "run";
   cli::choose_engine(stored.engine == "steps" ? "steps" : "auto", system);
-  io::check_stored(stored, system, file);
+  analyses::check_stored(stored, system, file);
   Ended ended;
   SingleRunOptions how;
   how.resume = stored.particles;

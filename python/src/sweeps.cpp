@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "carom/base/error.hpp"
-#include "carom/io/archive.hpp"
+#include "carom/files/archive.hpp"
 #include "cli/commands/sweep.hpp"
 #include "cli/commands/sweep_plan.hpp"
 #include "cli/common.hpp"
-#include "io/archive/sweep_archive.hpp"
+#include "files/checkpoint/sweep_archive.hpp"
 #include "loaded.hpp"
 
 namespace py = pybind11;
@@ -34,29 +34,29 @@ struct SweepOutcome {
   std::string file;  ///< that it was read from, or ""
 };
 
-io::SweepPlan plan_sweep(const std::string& toml, const std::string& name,
-                         const std::string& command, const Texts& set, const Texts& texts,
-                         const std::vector<std::string>& typed) {
+files::SweepPlan plan_sweep(const std::string& toml, const std::string& name,
+                            const std::string& command, const Texts& set, const Texts& texts,
+                            const std::vector<std::string>& typed) {
   cli::Options options = options_of(toml, name, command, set, texts);
   options.sweep = typed;
   return cli::plan_of_sweep(options);
 }
 
-Keys keys_of(const io::SweepPlan& plan) {
+Keys keys_of(const files::SweepPlan& plan) {
   Keys keys;
-  for (const io::SweptKey& key : plan.keys) keys.emplace_back(key.key, key.values);
+  for (const files::SweptKey& key : plan.keys) keys.emplace_back(key.key, key.values);
   return keys;
 }
 
 // `reports`: of the values that were computed, with their doubts.
-SweepOutcome make_sweep(const io::SweepPlan& plan,
+SweepOutcome make_sweep(const files::SweepPlan& plan,
                         const std::vector<std::pair<std::string, std::string>>& reports) {
   SweepOutcome made;
   cli::SweepResult& result = made.result;
   result.plan = plan;
   for (std::size_t i = 0; i < reports.size(); ++i) {
     const auto& [report, doubts] = reports[i];
-    result.rows.emplace_back(i, io::Json::parse(report, "report"), doubts);
+    result.rows.emplace_back(i, files::Json::parse(report, "report"), doubts);
   }
   result.status = reports.size() == plan.systems.size() ? "completed" : "interrupted";
   if (const auto error = cli::why_nothing(result)) throw *error;  // as the program
@@ -65,11 +65,11 @@ SweepOutcome make_sweep(const io::SweepPlan& plan,
 }
 
 SweepOutcome open_sweep(const std::string& file) {
-  const io::StoredSweep stored = io::read_sweep(file);
+  const files::StoredSweep stored = files::read_sweep(file);
   SweepOutcome opened{{stored.plan, {}, "", stored.status, ""}, file};
   for (std::size_t i = 0; i < stored.reports.size(); ++i)
     if (!stored.reports[i].empty())
-      opened.result.rows.emplace_back(i, io::Json::parse(stored.reports[i], file));
+      opened.result.rows.emplace_back(i, files::Json::parse(stored.reports[i], file));
   opened.result.title =
       read_system(stored.plan.system_toml, stored.plan.system_name, without_step()).system.title;
   return opened;
@@ -81,23 +81,23 @@ void save(const SweepOutcome& self, const std::string& name, bool force,
   const std::string file = followed(name);
   const ArchiveLock lock = lock_archive(file);
   refuse_existing(file, force);
-  io::keep_plan(file, self.result.plan);
+  files::keep_plan(file, self.result.plan);
   try {
     for (std::size_t i = 0; i < self.result.rows.size(); ++i) {
       const cli::SweepRow& row = self.result.rows[i];
       if (!archives[i].empty()) {
-        const std::string value = io::value_of_sweep(file, row.index);
+        const std::string value = files::value_of_sweep(file, row.index);
         std::filesystem::remove(value);  // a new file, never through a link
         std::filesystem::copy_file(archives[i], value);
       }
-      io::keep_report(file, self.result.plan, row.index, row.report.text());
+      files::keep_report(file, self.result.plan, row.index, row.report.text());
     }
     cli::Options options;
     options.command = self.result.plan.command;
     options.line = "carom." + self.result.plan.command + " (Python)";
     cli::keep_sweep(options, self.result, file, {});
   } catch (...) {
-    io::remove_sweep(file);
+    files::remove_sweep(file);
     throw;
   }
 }
@@ -143,10 +143,10 @@ void add_sweeps(py::module_& module) {
       .def(
           "extract",
           [](const SweepOutcome& self, std::size_t index, const std::string& target) {
-            return io::extract_value(self.file, index, target);
+            return files::extract_value(self.file, index, target);
           },
           py::arg("index"), py::arg("target"));
-  py::class_<io::SweepPlan>(module, "SweepPlan").def_property_readonly("keys", &keys_of);
+  py::class_<files::SweepPlan>(module, "SweepPlan").def_property_readonly("keys", &keys_of);
   module.def("plan_sweep", &plan_sweep, py::call_guard<py::gil_scoped_release>(), py::arg("toml"),
              py::arg("name"), py::arg("command"), py::arg("set"), py::arg("texts"),
              py::arg("typed"));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "beside.hpp"
+#include "carom/files/ensembles.hpp"
 #include "cli/commands/validate.hpp"
 #include "cli/common.hpp"
 #include "loaded.hpp"

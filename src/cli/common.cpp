@@ -14,19 +14,19 @@
 #include <cstring>
 
 #include "base/printable.hpp"
+#include "carom/analyses/run.hpp"
 #include "carom/base/error.hpp"
 #include "carom/base/whole_number.hpp"
-#include "carom/ensemble/sampler.hpp"
-#include "carom/ensemble/single_run.hpp"
 #include "carom/integrators/scheme.hpp"
+#include "carom/starts/sampler.hpp"
 #include "carom_version.hpp"
 #include "cli/commands/ensemble_job.hpp"
 #include "cli/reports/aligned.hpp"
-#include "io/checkpoint/work_folder.hpp"
+#include "files/checkpoint/work_folder.hpp"
 
 namespace carom::cli {
 
-using io::Json;
+using files::Json;
 
 namespace {
 

@@ -10,14 +10,14 @@
 
 #include "base/counted.hpp"
 #include "carom/base/error.hpp"
-#include "carom/ensemble/system.hpp"
 #include "carom/events/decisions.hpp"
-#include "carom/io/archive.hpp"
-#include "carom/io/system_file.hpp"
+#include "carom/files/archive.hpp"
+#include "carom/files/system_file.hpp"
 #include "carom/lanes/instruction_set.hpp"
 #include "carom/lanes/lane_effort.hpp"
+#include "carom/system/system.hpp"
 #include "cli/options.hpp"
-#include "io/json.hpp"
+#include "files/json.hpp"
 
 namespace carom::cli {
 
@@ -53,10 +53,10 @@ ArchiveLock claim_output(const Options&);
 Provenance provenance_of(const Options&, const System&, int threads);
 
 /// Adds version, system, title if there is one, seed, threads, engine, isa, seconds, cpu_seconds.
-void add_common_keys(io::Json& json, const System& system, int threads, double seconds,
+void add_common_keys(files::Json& json, const System& system, int threads, double seconds,
                      double cpu_seconds, const char* isa = "baseline");
 /// {filter, exact, share}: how many decisions each stage took, and the share that left the filter.
-io::Json decisions_json(const DecisionCounts&);
+files::Json decisions_json(const DecisionCounts&);
 /// "decisions beyond double precision: 0.0001 %".
 std::string decisions_text(const DecisionCounts&);
 /// "lanes: " and what becomes of them: `none`, why nothing flies in lanes, or if that is "" the

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "carom/base/error.hpp"
-#include "carom/ensemble/sampler.hpp"
-#include "carom/io/archive.hpp"
+#include "carom/files/archive.hpp"
+#include "carom/starts/sampler.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/ensemble_job.hpp"
 #include "cli/commands/sweep.hpp"

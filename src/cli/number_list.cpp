@@ -7,7 +7,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
-#include "carom/ensemble/report_times.hpp"
+#include "carom/system/report_times.hpp"
 #include "cli/common.hpp"
 
 namespace carom::cli {

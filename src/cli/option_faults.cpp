@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "carom/base/error.hpp"
-#include "carom/io/system_file.hpp"
+#include "carom/files/system_file.hpp"
 
 namespace carom::cli {
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "carom/base/error.hpp"
-#include "carom/io/system_file.hpp"
+#include "carom/files/system_file.hpp"
 #include "carom_version.hpp"
 #include "cli/command_options.hpp"
 #include "cli/command_table.hpp"

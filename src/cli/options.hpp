@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "carom/io/system_overrides.hpp"
+#include "carom/files/system_overrides.hpp"
 
-namespace carom::io {
+namespace carom::files {
 class Json;
-}  // namespace carom::io
+}  // namespace carom::files
 
 namespace carom::cli {
 
@@ -22,7 +22,7 @@ struct ValueOfSweep {
   std::size_t index = 0;
   std::string system_name, system_toml;  ///< the system, which was read before
   /// Takes the report in place of standard output, with its doubts as text.
-  std::function<void(const io::Json&, const std::string& doubts)> take;
+  std::function<void(const files::Json&, const std::string& doubts)> take;
 };
 
 struct Options {

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "carom/base/error.hpp"
-#include "carom/ensemble/sampler.hpp"
-#include "carom/io/archive.hpp"
+#include "carom/files/archive.hpp"
+#include "carom/starts/sampler.hpp"
 #include "cli/common.hpp"
 
 extern char** environ;

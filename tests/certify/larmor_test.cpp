@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "carom/analysis/trust.hpp"
 #include "carom/events/world.hpp"
-#include "carom/io/system_file.hpp"
+#include "carom/files/system_file.hpp"
+#include "carom/trust/trust.hpp"
 #include "certify/inside.hpp"
 #include "certify/number/ball.hpp"
 #include "certify/number/enclosure_of.hpp"
@@ -104,7 +104,7 @@ struct Walls : Observer {
   /// Against the system as it is written: its numbers are not doubles.
   explicit Walls(const ExactSystem& system)
       : trust(*system.table, TrustRecorder::usual_tolerance, written(system)) {}
-  static std::shared_ptr<const analysis::WrittenSystem> written(const ExactSystem& system) {
+  static std::shared_ptr<const trust::WrittenSystem> written(const ExactSystem& system) {
     LoadedSystem loaded;
     loaded.exact = system;
     loaded.system.table = system.table;

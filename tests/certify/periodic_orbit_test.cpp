@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "carom/ensemble/orbit_search.hpp"
-#include "carom/io/system_file.hpp"
+#include "carom/analyses/orbits.hpp"
+#include "carom/files/system_file.hpp"
 
 namespace carom {
 namespace {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "carom/base/error.hpp"
-#include "carom/ensemble/sampler.hpp"
 #include "carom/events/world.hpp"
+#include "carom/starts/sampler.hpp"
 #include "certify/number/exact_value.hpp"
 #include "certify/systems.hpp"
 #include "certify/wall/containment.hpp"

@@ -1,5 +1,5 @@
 // What double runs say of themselves, against certified orbits of the same starts.
-#include "carom/analysis/trust.hpp"
+#include "carom/trust/trust.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,12 +7,12 @@
 #include <cmath>
 #include <map>
 
+#include "carom/analyses/run.hpp"
 #include "carom/base/error.hpp"
 #include "carom/certify/certified_orbit.hpp"
-#include "carom/ensemble/sampler.hpp"
-#include "carom/ensemble/single_run.hpp"
 #include "carom/events/world.hpp"
-#include "carom/io/system_file.hpp"
+#include "carom/files/system_file.hpp"
+#include "carom/starts/sampler.hpp"
 #include "certify/systems.hpp"
 #include "random_tables.hpp"
 
@@ -114,7 +114,7 @@ class AgainstCertified {
   static constexpr std::uint64_t most = 300;
   ExactSystem system_;
   LoadedSystem loaded_;
-  std::shared_ptr<const analysis::WrittenSystem> written_;
+  std::shared_ptr<const trust::WrittenSystem> written_;
   Particle particle_;
   std::unique_ptr<World> world_;
   geometry::Box box_{{1e9, 1e9}, {-1e9, -1e9}};

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "carom/base/error.hpp"
-#include "io/archive/checksums.hpp"
+#include "files/hdf5/checksums.hpp"
 #include "program.hpp"
 
 namespace carom {
@@ -334,16 +334,17 @@ TEST(Checksums, DamagedFreeSpaceIsNamedAsDamaged) {
 
 // As a user of Python computes it: the sum of a dataset's bytes, and zlib's function.
 TEST(Checksums, AreThoseOfZlib) {
-  EXPECT_EQ(io::hdf5::crc32("123456789", 9), 0xcbf43926u);
+  EXPECT_EQ(files::hdf5::crc32("123456789", 9), 0xcbf43926u);
   const std::string text = "Carom computes the motion of classical particles";
-  EXPECT_EQ(io::hdf5::crc32(text.data() + 5, text.size() - 5, io::hdf5::crc32(text.data(), 5)),
-            io::hdf5::crc32(text.data(), text.size()));
+  EXPECT_EQ(
+      files::hdf5::crc32(text.data() + 5, text.size() - 5, files::hdf5::crc32(text.data(), 5)),
+      files::hdf5::crc32(text.data(), text.size()));
   const Shell shell;
   ASSERT_EQ(shell("$carom run sinai --collisions 5000 -o a.h5 --quiet").status, 0);
   const std::vector<double> times = read_reals(shell.folder() + "/a.h5", "collisions/t");
   char line[80];
   std::snprintf(line, sizeof line, "\n%08x float64 %015zu /collisions/t\n",
-                io::hdf5::crc32(times.data(), times.size() * sizeof(double)), times.size());
+                files::hdf5::crc32(times.data(), times.size() * sizeof(double)), times.size());
   EXPECT_NE(shell.read("a.h5").find(line), std::string::npos) << line;
 }
 
@@ -393,7 +394,7 @@ TEST(Checksums, AnIndexOfLinksIsDamagedOrLists) {
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file < 0) continue;
     try {
-      io::hdf5::verify(file, path);
+      files::hdf5::verify(file, path);
       EXPECT_TRUE(lists(file)) << at;
     } catch (const InputError& error) {
       refused_for_links += error.problem().find("index of links") != std::string::npos;

@@ -3,7 +3,7 @@
 
 #include <ostream>
 
-#include "carom/io/system_file.hpp"
+#include "carom/files/system_file.hpp"
 #include "program.hpp"
 
 namespace carom {

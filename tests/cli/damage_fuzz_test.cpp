@@ -14,9 +14,12 @@
 #include <vector>
 
 #include "archive_contents.hpp"
+#include "carom/analyses/kinds.hpp"
+#include "carom/analyses/run/archive.hpp"
 #include "carom/base/error.hpp"
-#include "carom/io/archive.hpp"
-#include "io/archive/checksums.hpp"
+#include "carom/files/archive.hpp"
+#include "carom/files/ensembles.hpp"
+#include "files/hdf5/checksums.hpp"
 #include "program.hpp"
 #include "systems.hpp"
 
@@ -171,7 +174,7 @@ void read_archive(const std::string& name, const std::string& path) {
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file < 0) throw InputError(Place{path, 0, 0, ""}, "no archive");
     try {
-      io::hdf5::verify(file, path);
+      files::hdf5::verify(file, path);
     } catch (...) {
       H5Fclose(file);
       throw;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "io/archive/checksums.hpp"
+#include "files/hdf5/checksums.hpp"
 #include "program.hpp"
 
 namespace carom {
@@ -24,7 +24,7 @@ class Damage {
     EXPECT_GE(file_, 0);
   }
   ~Damage() {
-    io::hdf5::write_checksums(file_, "b.h5");
+    files::hdf5::write_checksums(file_, "b.h5");
     H5Fclose(file_);
   }
   Damage(const Damage&) = delete;

@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "carom/ensemble/single_run.hpp"
-#include "carom/io/archive.hpp"
-#include "carom/io/system_file.hpp"
+#include "carom/analyses/run.hpp"
+#include "carom/analyses/run/archive.hpp"
+#include "carom/files/archive.hpp"
+#include "carom/files/system_file.hpp"
 #include "program.hpp"
 
 namespace carom {

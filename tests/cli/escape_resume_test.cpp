@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "io/archive/checksums.hpp"
-#include "io/archive/hdf5.hpp"
+#include "files/hdf5/checksums.hpp"
+#include "files/hdf5/hdf5.hpp"
 #include "kill_and_resume.hpp"
 
 namespace carom {
@@ -143,10 +143,10 @@ void change_provenance(const std::string& path, const char* name, bool remove = 
   if (remove) {
     EXPECT_GE(H5Adelete(provenance, name), 0);
   } else {
-    io::hdf5::change_attribute(provenance, name, std::string_view("99999999"), path);
+    files::hdf5::change_attribute(provenance, name, std::string_view("99999999"), path);
   }
   H5Gclose(provenance);
-  io::hdf5::write_checksums(file, path);
+  files::hdf5::write_checksums(file, path);
   H5Fclose(file);
 }
 

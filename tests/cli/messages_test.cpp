@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "carom/io/system_file.hpp"
+#include "carom/files/system_file.hpp"
 #include "cli/program.hpp"
 
 namespace carom {

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "base/counted.hpp"
-#include "carom/io/system_file.hpp"
+#include "carom/files/system_file.hpp"
 #include "cli/program.hpp"
 #include "cli/reports/aligned.hpp"
 

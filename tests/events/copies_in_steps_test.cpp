@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <string>
 
-#include "carom/ensemble/sampler.hpp"
 #include "carom/events/energy.hpp"
 #include "carom/events/world.hpp"
-#include "carom/io/system_file.hpp"
+#include "carom/files/system_file.hpp"
+#include "carom/starts/sampler.hpp"
 
 namespace carom {
 namespace {

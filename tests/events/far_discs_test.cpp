@@ -5,10 +5,10 @@
 #include <cmath>
 #include <string>
 
-#include "carom/ensemble/sampler.hpp"
-#include "carom/ensemble/single_run.hpp"
+#include "carom/analyses/run.hpp"
 #include "carom/events/world.hpp"
-#include "carom/io/system_file.hpp"
+#include "carom/files/system_file.hpp"
+#include "carom/starts/sampler.hpp"
 #include "recorder.hpp"
 
 namespace carom {

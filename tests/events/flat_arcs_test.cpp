@@ -5,7 +5,7 @@
 #include <string>
 
 #include "carom/events/world.hpp"
-#include "carom/io/system_file.hpp"
+#include "carom/files/system_file.hpp"
 #include "geometry/quad.hpp"
 #include "random_tables.hpp"
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "carom/ensemble/sampler.hpp"
 #include "carom/events/world.hpp"
+#include "carom/files/system_file.hpp"
 #include "carom/integrators/scheme.hpp"
-#include "carom/io/system_file.hpp"
+#include "carom/starts/sampler.hpp"
 #include "events/step/step_path.hpp"
 #include "integrators/splitting.hpp"
 

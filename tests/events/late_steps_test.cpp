@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "carom/events/world.hpp"
-#include "carom/io/system_file.hpp"
+#include "carom/files/system_file.hpp"
 #include "events/step/group.hpp"
 
 namespace carom {

@@ -6,9 +6,9 @@
 #include <random>
 #include <string>
 
+#include "carom/files/system_file.hpp"
 #include "carom/forces/force_field.hpp"
 #include "carom/forces/hessian.hpp"
-#include "carom/io/system_file.hpp"
 #include "forces/formulas.hpp"
 
 namespace carom {

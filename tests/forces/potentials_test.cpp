@@ -7,8 +7,8 @@
 #include <random>
 #include <string>
 
+#include "carom/files/system_file.hpp"
 #include "carom/forces/force_field.hpp"
-#include "carom/io/system_file.hpp"
 #include "forces/bumps.hpp"
 #include "forces/formulas.hpp"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "carom/files/system_file.hpp"
 #include "carom/forces/force_field.hpp"
-#include "carom/io/system_file.hpp"
 #include "random_tables.hpp"
 
 namespace carom {

@@ -10,7 +10,7 @@
 #include "carom/base/random.hpp"
 #include "carom/events/energy.hpp"
 #include "carom/events/world.hpp"
-#include "carom/io/system_file.hpp"
+#include "carom/files/system_file.hpp"
 
 namespace carom {
 namespace {

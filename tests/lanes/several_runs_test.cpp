@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "carom/ensemble/sampler.hpp"
 #include "carom/events/world.hpp"
+#include "carom/files/system_file.hpp"
 #include "carom/geometry/lattice.hpp"
-#include "carom/io/system_file.hpp"
 #include "carom/lanes/free_lanes.hpp"
+#include "carom/starts/sampler.hpp"
 #include "lanes/one_by_one.hpp"
 #include "tables_by_hand.hpp"
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "carom/ensemble/sampler.hpp"
 #include "carom/events/world.hpp"
-#include "carom/io/system_file.hpp"
+#include "carom/files/system_file.hpp"
+#include "carom/starts/sampler.hpp"
 
 namespace carom {
 namespace {

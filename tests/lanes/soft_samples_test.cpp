@@ -7,11 +7,11 @@
 #include <cstring>
 #include <string>
 
-#include "carom/ensemble/diffusion.hpp"
-#include "carom/ensemble/sampler.hpp"
+#include "carom/analyses/diffusion.hpp"
 #include "carom/events/world.hpp"
+#include "carom/files/system_file.hpp"
 #include "carom/integrators/scheme.hpp"
-#include "carom/io/system_file.hpp"
+#include "carom/starts/sampler.hpp"
 #include "lanes/one_by_one.hpp"
 
 namespace carom {

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "carom/ensemble/escape.hpp"
+#include "carom/analyses/escape.hpp"
 #include "carom/maps/maps.hpp"
 #include "maps/engine.hpp"
 

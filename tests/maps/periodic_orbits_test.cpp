@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "carom/ensemble/orbit_search.hpp"
+#include "carom/analyses/orbits.hpp"
 #include "carom/maps/maps.hpp"
 #include "carom/table/make.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "carom/ensemble/orbit_search.hpp"
+#include "carom/analyses/orbits.hpp"
 #include "carom/table/make.hpp"
 
 namespace carom {

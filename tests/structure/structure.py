@@ -13,8 +13,10 @@ import shutil
 import subprocess
 import sys
 
-# Modules that a module may include besides itself and base/; dependencies of dependencies do not count. The accumulators of
-# analysis/ know nothing of ensembles. Certified orbits test the engine, so certify/ includes nothing of events/.
+# Modules that a module may include besides itself and base/; dependencies of dependencies do not count. Certified orbits test
+# the engine, so certify/ includes nothing of events/. `analyses` is what an analysis of analyses/ may see, besides itself and
+# those of OTHER_ANALYSES; its command and its report belong to the program, cli.
+ENGINE = ["events", "forces", "geometry", "integrators", "lanes", "motion", "table"]
 DEPENDENCIES = {
     "base": [],
     "geometry": [],
@@ -24,15 +26,31 @@ DEPENDENCIES = {
     "integrators": ["geometry"],
     "events": ["forces", "geometry", "integrators", "motion", "table"],
     "certify": ["geometry", "motion", "table"],
-    "analysis": ["certify", "events", "geometry", "motion", "table"],
     "orbits": ["events", "geometry", "motion", "table"],
     "lanes": ["events", "forces", "geometry", "integrators", "motion", "table"],
-    "ensemble": ["analysis", "events", "forces", "geometry", "integrators", "lanes", "motion", "orbits", "table"],
-    "io": ["analysis", "certify", "ensemble", "events", "forces", "geometry", "integrators", "orbits", "table"],
-    "validation": ["analysis", "ensemble", "events", "integrators", "io", "orbits"],
-    "cli": ["certify", "ensemble", "events", "geometry", "integrators", "io", "lanes", "orbits", "table", "validation"],
-    "python": ["analysis", "certify", "cli", "ensemble", "events", "forces", "geometry", "io", "motion", "orbits", "table", "validation"],
+    "system": ["events", "geometry", "motion", "table"],
+    "results": ["events", "lanes", "motion", "system"],
+    "starts": ["events", "forces", "geometry", "motion", "results", "system", "table"],
+    "engines": [*ENGINE, "results", "starts", "system"],
+    "trust": ["certify", "events", "geometry", "motion", "system", "table"],
+    "files": [*ENGINE, "certify", "engines", "results", "starts", "system", "trust"],
+    "analyses": [*ENGINE, "certify", "engines", "files", "orbits", "results", "starts", "system", "trust"],
+    "validation": ["analyses", "engines", "events", "files", "integrators", "orbits", "results", "starts", "system"],
+    "cli": ["analyses", "certify", "engines", "events", "files", "geometry", "integrators", "lanes", "orbits", "results", "starts", "system",
+            "table", "validation"],
+    "python": ["analyses", "certify", "cli", "engines", "events", "files", "forces", "geometry", "motion", "orbits", "results", "starts",
+               "system", "table", "trust", "validation"],
 }
+# Analyses that an analysis may see, with the reason.
+OTHER_ANALYSES = {
+    "splitting": ["escape"],                 # it counts survivors, and fits their decay by the same laws
+    "lyapunov": ["splitting"],               # the repeller of an open table is what splitting keeps alive
+    "orbits": ["run"],                       # close returns are looked for along a run
+}
+# Files for all analyses: the list of kinds, the functions of the program, which all of them may see.
+ALL_ANALYSES = {"kinds", "all", "checks"}
+# The list of kinds, for templates that are made once for each: their files name no single one.
+KINDS = ("files", "include/carom/analyses/kinds.hpp")
 # The closed-form maps check the engine, so they share nothing with it.
 MAPS_MAY_INCLUDE = {"carom/maps/maps.hpp", "carom/base/error.hpp"}
 # Generated into the build folder: header and its module.
@@ -46,22 +64,22 @@ PACKAGES = {
     r"gmp|mpfr": r"geometry/src/|src/base/|src/table/|src/certify/",
     r"(arb|acb|arf|mag)(_\w+)?\.h|flint": r"src/certify/",
     r"sleef": r"src/base/elementary.*\.cpp",
-    r"gsl/": r"src/ensemble/relax/|src/orbits/",
+    r"gsl/": r"src/analyses/relax/|src/orbits/",
     r"Random123/": r"src/base/random\.cpp",
-    r"toml\+\+/|hdf5": r"src/io/",
-    r"zlib|isa-l/": r"src/io/archive/(deflate|sums)\.cpp",
+    r"toml\+\+/|hdf5": r"src/files/",
+    r"zlib|isa-l/": r"src/files/hdf5/(deflate|sums)\.cpp",
     r"CLI/": r"src/cli/(options\.cpp|option_faults\.cpp|command_options\.hpp)",
     r"hwy/": r"src/lanes/simd/",
     r"pybind11|Python\.h": r"python/src/",
-    r"omp\.h": r"src/ensemble/|validation/cases/",
+    r"omp\.h": r"src/engines/|src/analyses/|validation/cases/",
     r"mpi\.h": r"src/cli/mpi_ranks\.cpp",
     r"sundials|arkode/|cvode/|nvector/|sunlinsol/|sunnonlinsol/": r"src/integrators/",
 }
 # C++ files in which states, times and random numbers are made, and what is stored in archives of ensembles, which
 # are compared bit by bit; base/elementary.cpp is the door.
 LIBM_FREE = (
-    r"include/carom/(?!maps/)|geometry/|src/(base|table|motion|forces|integrators|events|lanes|ensemble|orbits)/"
-    r"|src/analysis/(decay|growth|mean_square_displacement|survival|section)\.cpp"
+    r"include/carom/(?!maps/)|geometry/|src/(base|table|motion|forces|integrators|events|lanes|orbits|system|results|starts|engines)/"
+    r"|src/analyses/\w+/(?!report|command)"
 )
 # What makes these functions the same everywhere: SLEEF behind the first ones, Boost behind the last.
 DOORS = ("src/base/elementary.cpp", "src/base/elementary_spans.cpp", "include/carom/base/elementary.hpp", "src/forces/quad.hpp")
@@ -95,23 +113,37 @@ def sources(root):
                 yield path.relative_to(root).as_posix(), path.read_text(encoding="utf-8")
 
 
+def analysis_of(path):
+    """The analysis that a file belongs to, or None."""
+    match = re.match(r"(?:src|include/carom)/analyses/(\w+)", path)
+    return match.group(1) if match and match.group(1) not in ALL_ANALYSES else None
+
+
 def module_of(path):
     if path.startswith("geometry/"):
         return "geometry"
+    if re.match(r"src/analyses/\w+/(command|report)", path):
+        return "cli"
     match = re.match(r"(?:src/|include/carom/|(?=validation/|python/))(\w+)/", path)
     return match.group(1) if match else None
+
+
+def included_file(root, path, header):
+    """The path of a quoted header relative to root, or None."""
+    here = (root / path).parent
+    for folder in (here, root / "include", root / "geometry/include", root / "src", root / "geometry/src", root):
+        found = (folder / header).resolve()
+        if found.is_file() and found.is_relative_to(root.resolve()):
+            return found.relative_to(root.resolve()).as_posix()
+    return None
 
 
 def included_module(root, path, header):
     """The module of a quoted header, or None."""
     if header in GENERATED:
         return GENERATED[header]
-    here = (root / path).parent
-    for folder in (here, root / "include", root / "geometry/include", root / "src", root / "geometry/src", root):
-        found = (folder / header).resolve()
-        if found.is_file() and found.is_relative_to(root.resolve()):
-            return module_of(found.relative_to(root.resolve()).as_posix())
-    return None
+    found = included_file(root, path, header)
+    return module_of(found) if found else None
 
 
 def check_cycles(module, seen=()):
@@ -153,8 +185,12 @@ def check_includes(root):
                 yield f"{place}: no module is declared as '{module}'"
             elif target is None:
                 yield f"{place}: no such header in the project: {header}"
-            elif target not in (module, "base", *DEPENDENCIES[module]):
+            elif target not in (module, "base", *DEPENDENCIES[module]) and (module, included_file(root, path, header)) != KINDS:
                 yield f"{place}: {module}/ must not include {target}/ ({header})"
+            elif analysis := analysis_of(path):
+                other = analysis_of(included_file(root, path, header) or "")
+                if other not in (None, analysis, *OTHER_ANALYSES.get(analysis, [])):
+                    yield f"{place}: analyses/{analysis} must not include analyses/{other} ({header})"
     # Examples see what users see: an installed library.
     for path in sorted((root / "examples").glob("*.cpp")):
         for match in INCLUDE.finditer(without_comments(path.read_text(encoding="utf-8"), strings=False)):
@@ -179,7 +215,7 @@ def check_umbrella(root):
 
 # Names of internal headers in another namespace than their module's, with the reason.
 FOREIGN_NAMES = {
-    ("src/analysis/exact_hit.hpp", "sin_cos"): "certify/ finds it by its argument, carom::Twofold",
+    ("src/trust/exact_hit.hpp", "sin_cos"): "certify/ finds it by its argument, carom::Twofold",
 }
 
 

@@ -13,7 +13,8 @@ def faults(check, files):
         root = pathlib.Path(folder)
         base = {"include/carom/base/error.hpp": "#pragma once\n", "include/carom/table/table.hpp": "#pragma once\n",
                 "include/carom/events/world.hpp": "#pragma once\n", "src/motion/flight.hpp": "#pragma once\n",
-                "src/io/value.hpp": "#pragma once\n", "validation/cases/cases.hpp": "#pragma once\n"}
+                "src/files/value.hpp": "#pragma once\n", "src/cli/tables.hpp": "#pragma once\n",
+                "src/analyses/escape/law.hpp": "#pragma once\n", "include/carom/analyses/splitting.hpp": "#pragma once\n", "validation/cases/cases.hpp": "#pragma once\n"}
         for name, text in {**base, **files}.items():
             path = root / name
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -30,20 +31,31 @@ class Includes(unittest.TestCase):
 
     def test_dependencies(self):
         self.legal("src/events/world.cpp", '#include "carom/table/table.hpp"')
-        self.legal("src/cli/run.cpp", '#include "io/value.hpp"')
+        self.legal("src/cli/run.cpp", '#include "files/value.hpp"')
         self.illegal("src/table/build.cpp", '#include "carom/events/world.hpp"')
-        self.illegal("src/events/world.cpp", '#include "io/value.hpp"')
+        self.illegal("src/events/world.cpp", '#include "files/value.hpp"')
         self.illegal("geometry/src/curve.cpp", '#include "carom/table/table.hpp"')
         self.illegal("src/attic/old.cpp", '#include "carom/base/error.hpp"')
         self.illegal("src/table/build.cpp", '#include "nowhere.hpp"')
         self.illegal("src/certify/wall.cpp", '#include "carom/events/world.hpp"')
         self.legal("src/cli/validate.cpp", '#include "validation/cases/cases.hpp"')
-        self.illegal("src/io/value.cpp", '#include "validation/cases/cases.hpp"')
+        self.illegal("src/files/value.cpp", '#include "validation/cases/cases.hpp"')
         self.illegal("validation/cases/cases.cpp", '#include "carom/table/table.hpp"')
 
     def test_dependencies_are_direct(self):
         self.legal("src/events/world.cpp", '#include "motion/flight.hpp"')
-        self.illegal("src/io/value.cpp", '#include "motion/flight.hpp"')
+        self.illegal("src/certify/value.cpp", '#include "files/value.hpp"')
+
+    def test_analyses_see_their_own(self):
+        self.legal("src/analyses/escape/decay.cpp", '#include "analyses/escape/law.hpp"')
+        self.legal("src/analyses/lyapunov/repeller.cpp", '#include "carom/analyses/splitting.hpp"')
+        self.illegal("src/analyses/escape/decay.cpp", '#include "carom/analyses/splitting.hpp"')
+        self.illegal("src/analyses/escape/report.cpp", '#include "carom/analyses/splitting.hpp"')
+        self.illegal("src/files/value.cpp", '#include "carom/analyses/splitting.hpp"')
+
+    def test_reports_and_commands_are_the_programs(self):
+        self.legal("src/analyses/escape/report.cpp", '#include "cli/tables.hpp"')
+        self.illegal("src/analyses/escape/decay.cpp", '#include "cli/tables.hpp"')
 
     def test_maps_are_a_witness(self):
         self.legal("src/maps/disc.cpp", '#include "carom/base/error.hpp"')
@@ -74,7 +86,7 @@ class Includes(unittest.TestCase):
 
 class Umbrella(unittest.TestCase):
     def test_public_headers_come_with_it(self):
-        world = '#include "carom/table/table.hpp"\n#include "carom/base/error.hpp"\n'
+        world = '#include "carom/table/table.hpp"\n#include "carom/base/error.hpp"\n#include "carom/analyses/splitting.hpp"\n'
         files = {"include/carom/events/world.hpp": world,
                  "include/carom/carom.hpp": '#include "carom/events/world.hpp"\n',
                  "include/carom/maps/maps.hpp": "#pragma once\n"}
@@ -125,8 +137,8 @@ class Libm(unittest.TestCase):
 
 class Length(unittest.TestCase):
     def test_long_files_are_found(self):
-        self.assertEqual(len(faults("length", {"src/io/long.cpp": "\n" * 501})), 1)
-        self.assertEqual(len(faults("length", {"src/io/long.cpp": "\n" * 500})), 0)
+        self.assertEqual(len(faults("length", {"src/files/long.cpp": "\n" * 501})), 1)
+        self.assertEqual(len(faults("length", {"src/files/long.cpp": "\n" * 500})), 0)
 
 
 @unittest.skipUnless(shutil.which("c++"), "no compiler is called c++")

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "carom/io/system_file.hpp"
+#include "carom/files/system_file.hpp"
 
 namespace carom::validation {
 namespace {

@@ -8,11 +8,11 @@
 #include <memory>
 #include <utility>
 
+#include "carom/analyses/compare.hpp"
+#include "carom/analyses/lyapunov/repeller.hpp"
 #include "carom/base/error.hpp"
-#include "carom/ensemble/compare.hpp"
-#include "carom/ensemble/repeller.hpp"
+#include "carom/files/system_file.hpp"
 #include "carom/integrators/scheme.hpp"
-#include "carom/io/system_file.hpp"
 #include "validation/cases/orbit_cases.hpp"
 
 namespace carom::validation {

@@ -10,16 +10,16 @@
 #include <mutex>
 #include <vector>
 
+#include "carom/analyses/compare.hpp"
+#include "carom/analyses/diffusion.hpp"
+#include "carom/analyses/escape.hpp"
+#include "carom/analyses/lyapunov.hpp"
+#include "carom/analyses/run.hpp"
 #include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"
-#include "carom/ensemble/compare.hpp"
-#include "carom/ensemble/diffusion.hpp"
-#include "carom/ensemble/escape.hpp"
-#include "carom/ensemble/lyapunov.hpp"
-#include "carom/ensemble/sampler.hpp"
-#include "carom/ensemble/single_run.hpp"
-#include "carom/ensemble/stopwatch.hpp"
+#include "carom/base/stopwatch.hpp"
 #include "carom/events/world.hpp"
+#include "carom/starts/sampler.hpp"
 
 namespace carom::validation {
 

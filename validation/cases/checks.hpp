@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "carom/analysis/mean_square_displacement.hpp"
-#include "carom/ensemble/compare.hpp"
-#include "carom/ensemble/system.hpp"
+#include "carom/analyses/compare.hpp"
+#include "carom/analyses/diffusion/mean_square_displacement.hpp"
+#include "carom/system/system.hpp"
 
 namespace carom::validation {
 

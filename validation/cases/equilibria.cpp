@@ -6,8 +6,8 @@
 #include <numbers>
 #include <tuple>
 
-#include "carom/ensemble/relax.hpp"
-#include "carom/io/system_file.hpp"
+#include "carom/analyses/relax.hpp"
+#include "carom/files/system_file.hpp"
 #include "validation/cases/cases.hpp"
 
 namespace carom::validation {

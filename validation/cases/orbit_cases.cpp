@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "carom/ensemble/orbit_search.hpp"
-#include "carom/io/system_file.hpp"
+#include "carom/analyses/orbits.hpp"
+#include "carom/files/system_file.hpp"
 
 namespace carom::validation {
 

@@ -29,16 +29,19 @@
 #include <string>
 #include <vector>
 
+#include "carom/analyses/compare/archive.hpp"
+#include "carom/analyses/orbits/archive.hpp"
+#include "carom/analyses/relax/archive.hpp"
+#include "carom/analyses/run/archive.hpp"
+#include "carom/analyses/run/certified_archive.hpp"
+#include "carom/analyses/section/archive.hpp"
 #include "carom/base/error.hpp"
-#include "carom/io/archive.hpp"
-#include "carom/io/certified_archive.hpp"
-#include "carom/io/comparison_archive.hpp"
-#include "carom/io/orbit_archive.hpp"
-#include "carom/io/relax_archive.hpp"
-#include "carom/io/system_file.hpp"
-#include "io/archive/sweep_archive.hpp"
-#include "io/checkpoint/sweep_files.hpp"
-#include "io/checkpoint/work_folder.hpp"
+#include "carom/files/archive.hpp"
+#include "carom/files/ensembles.hpp"
+#include "carom/files/system_file.hpp"
+#include "files/checkpoint/sweep_archive.hpp"
+#include "files/checkpoint/sweep_files.hpp"
+#include "files/checkpoint/work_folder.hpp"
 
 namespace carom {
 namespace {
@@ -218,12 +221,12 @@ std::string read_an_ensemble(const std::string& file) {
 
 /// Reads what there is under this name as the program does, and returns all that it holds.
 std::string read_all(const std::string& file) {
-  if (io::has_sweep(file)) {
-    const io::SweepPlan plan = io::kept_plan(file);
+  if (files::has_sweep(file)) {
+    const files::SweepPlan plan = files::kept_plan(file);
     std::string text = plan.json().text();
     for (std::size_t i = 0; i < plan.systems.size(); ++i)
-      if (const auto report = io::kept_report(file, i))
-        text += io::Json::parse(*report, io::value_of_sweep(file, i) + ".report").text();
+      if (const auto report = files::kept_report(file, i))
+        text += files::Json::parse(*report, files::value_of_sweep(file, i) + ".report").text();
     return text;
   }
   const std::string kind = has_checkpoint(file) ? kind_of_ensemble(file) : kind_of_archive(file);
@@ -247,9 +250,9 @@ std::string read_all(const std::string& file) {
   } else if (kind == "relax") {
     read_equilibria(file);
   } else if (kind == "sweep") {
-    const io::StoredSweep stored = io::read_sweep(file);
+    const files::StoredSweep stored = files::read_sweep(file);
     for (std::size_t i = 0; i < stored.plan.systems.size(); ++i)
-      io::extract_value(file, i, file + "-value");
+      files::extract_value(file, i, file + "-value");
   } else {
     throw InputError(Place{file, 0, 0, ""}, "an archive of the kind '" + kind + "'");
   }

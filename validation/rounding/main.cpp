@@ -13,13 +13,13 @@
 #include <optional>
 #include <string>
 
+#include "analyses/run/command_certified.hpp"
+#include "carom/analyses/run.hpp"
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
 #include "carom/certify/certified_orbit.hpp"
-#include "carom/ensemble/sampler.hpp"
-#include "carom/ensemble/single_run.hpp"
-#include "carom/io/system_file.hpp"
-#include "cli/commands/run_certified.hpp"
+#include "carom/files/system_file.hpp"
+#include "carom/starts/sampler.hpp"
 #include "validation/rounding/paired_escape.hpp"
 
 namespace carom::rounding {

@@ -6,17 +6,17 @@
 #include <utility>
 #include <vector>
 
-#include "carom/analysis/trust.hpp"
 #include "carom/base/error.hpp"
-#include "carom/ensemble/engine.hpp"
-#include "carom/ensemble/stopwatch.hpp"
-#include "carom/ensemble/trajectories.hpp"
+#include "carom/base/stopwatch.hpp"
+#include "carom/engines/engine.hpp"
+#include "carom/engines/trajectories.hpp"
 #include "carom/table/hole_names.hpp"
-#include "ensemble/parallel_blocks.hpp"
+#include "carom/trust/trust.hpp"
+#include "engines/parallel_blocks.hpp"
 
 namespace carom {
 
-using namespace ensemble;
+using namespace engines;
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <functional>
 
-#include "carom/ensemble/system.hpp"
 #include "carom/motion/state.hpp"
+#include "carom/system/system.hpp"
 #include "validation/rounding/paired_survival.hpp"
 
 namespace carom {

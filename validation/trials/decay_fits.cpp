@@ -11,7 +11,7 @@
 #include <sstream>
 #include <string>
 
-#include "carom/analysis/decay.hpp"
+#include "carom/analyses/escape/decay.hpp"
 
 int main() {
   std::ios::sync_with_stdio(false);

@@ -1,7 +1,7 @@
 // The subcommands; each returns the exit status.
 #pragma once
 
-#include "carom/io/system_file.hpp"
+#include "carom/files/system_file.hpp"
 #include "cli/options.hpp"
 
 namespace carom::cli {

@@ -8,10 +8,11 @@
 
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
-#include "carom/ensemble/sampler.hpp"
+#include "carom/files/ensembles.hpp"
+#include "carom/starts/sampler.hpp"
 #include "cli/common.hpp"
-#include "io/checkpoint/rank_parts.hpp"
-#include "io/checkpoint/work_folder.hpp"
+#include "files/checkpoint/rank_parts.hpp"
+#include "files/checkpoint/work_folder.hpp"
 
 namespace carom::cli {
 
@@ -81,9 +82,10 @@ EnsembleJob<Result> job_to_go_on(const Options& options, Sharing sharing) {
   EnsembleJob<Result> job;
   job.output = archive_named(options.resume);
   // A complete archive is only shown.
-  if (sharing != Sharing::other && !(is_complete(job.output) && !io::has_work_folder(job.output))) {
+  if (sharing != Sharing::other &&
+      !(is_complete(job.output) && !files::has_work_folder(job.output))) {
     job.lock = lock_output(options, job.output);
-    io::gather_parts<Result>(job.output, sharing == Sharing::first, job.lock);
+    files::gather_parts<Result>(job.output, sharing == Sharing::first, job.lock);
   }
   job.stored = read_ensemble<Result>(job.output);
   if (!options.output.empty() && options.output != job.output)

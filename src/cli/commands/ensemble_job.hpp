@@ -4,8 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "carom/io/archive.hpp"
-#include "carom/io/system_file.hpp"
+#include "carom/analyses/kinds.hpp"
+#include "carom/files/archive.hpp"
+#include "carom/files/ensembles.hpp"
+#include "carom/files/system_file.hpp"
 #include "cli/options.hpp"
 
 namespace carom::cli {

@@ -7,14 +7,15 @@
 #include <vector>
 
 #include "carom/base/error.hpp"
+#include "carom/files/ensembles.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/run_ensemble.hpp"
 #include "cli/commands/sweep.hpp"
 #include "cli/commands/sweep_plan.hpp"
 #include "cli/common.hpp"
 #include "cli/temporary_folder.hpp"
-#include "io/archive/sweep_archive.hpp"
-#include "io/checkpoint/work_folder.hpp"
+#include "files/checkpoint/sweep_archive.hpp"
+#include "files/checkpoint/work_folder.hpp"
 
 namespace carom::cli {
 
@@ -50,10 +51,10 @@ int merge_parts(const Options& options, const std::string& output,
                 context_of(options, sum.status, named_archive(options, output), sum.shard), true);
 }
 
-io::SweepPlan common_plan(const std::vector<std::string>& files) {
-  io::SweepPlan common;
+files::SweepPlan common_plan(const std::vector<std::string>& files) {
+  files::SweepPlan common;
   for (const std::string& file : files) {
-    io::SweepPlan plan = io::read_sweep(file).plan;
+    files::SweepPlan plan = files::read_sweep(file).plan;
     std::erase_if(plan.options, [](const auto& option) { return option.first == "shard"; });
     if (file != files.front()) refuse_another(common, plan, file);
     common = std::move(plan);
@@ -73,20 +74,20 @@ int merge_values(const Options& options, const std::string& output,
     const TemporaryFolder folder;
     std::vector<std::string> parts, names;
     for (std::size_t k = 0; k < files.size(); ++k)
-      if (io::extract_value(files[k], i, folder.file(fmt::format("{}.h5", k)))) {
+      if (files::extract_value(files[k], i, folder.file(fmt::format("{}.h5", k)))) {
         parts.push_back(folder.file(fmt::format("{}.h5", k)));
         names.push_back(files[k]);
       }
     auto value = std::make_shared<ValueOfSweep>();
-    value->take = [&](const io::Json& report, const std::string& doubts) {
+    value->take = [&](const files::Json& report, const std::string& doubts) {
       merged.rows.emplace_back(i, report, doubts);
     };
     one.of_sweep = value;
     if (parts.empty()) continue;
     worst = std::max(
-        worst, merge_parts<Result>(one, io::value_of_sweep(output, i), parts, names, nullptr));
-    io::keep_report(output, merged.plan, i, merged.rows.back().report.text());
-    if (!is_complete(io::value_of_sweep(output, i))) merged.status = "incomplete";
+        worst, merge_parts<Result>(one, files::value_of_sweep(output, i), parts, names, nullptr));
+    files::keep_report(output, merged.plan, i, merged.rows.back().report.text());
+    if (!is_complete(files::value_of_sweep(output, i))) merged.status = "incomplete";
   }
   if (merged.rows.size() < merged.plan.systems.size()) merged.status = "incomplete";
   return worst;
@@ -96,8 +97,8 @@ int merge_sweeps(const Options& options, const std::string& output,
                  const std::vector<std::string>& files) {
   SweepResult merged;
   merged.plan = common_plan(files);
-  io::give_up_checkpoint(output);
-  io::keep_plan(output, merged.plan);
+  files::give_up_checkpoint(output);
+  files::keep_plan(output, merged.plan);
   int worst = done;
   try {
     for_kind(merged.plan.command, [&]<class Result>(std::type_identity<Result>) {
@@ -106,7 +107,7 @@ int merge_sweeps(const Options& options, const std::string& output,
     if (const auto error = why_nothing(merged)) throw *error;
     end_sweep(options, merged, output, {});
   } catch (...) {
-    io::remove_sweep(output);
+    files::remove_sweep(output);
     throw;
   }
   return worst;
@@ -126,7 +127,7 @@ int merge(const Options& options) {
                      "OUT.h5 PART.h5 PART.h5 …");
   ArchiveLock lock = lock_output(options, output);
   refuse_existing(output, options.force);
-  if (io::is_sweep_archive(files.front())) return merge_sweeps(options, output, files);
+  if (files::is_sweep_archive(files.front())) return merge_sweeps(options, output, files);
   int status = done;
   for_kind(kind_of_ensemble(files.front()), [&]<class Result>(std::type_identity<Result>) {
     status = merge_parts<Result>(options, output, files, {}, std::move(lock));

@@ -15,7 +15,7 @@ namespace {
 int drawn(const Options& options, const char* kind, const std::string& file) {
   const int status = draw(options.system, file, options.force, options.what);
   if (status != done || !options.json) return status;
-  io::Json json = io::Json::object();
+  files::Json json = files::Json::object();
   json.set("version", version).set("system", options.system).set("kind", kind).set("file", file);
   if (!options.what.empty()) json.set("what", options.what);
   print(json.text() + "\n");

@@ -9,15 +9,17 @@
 #include <string>
 #include <utility>
 
+#include "analyses/diffusion/report.hpp"
+#include "analyses/escape/report.hpp"
+#include "analyses/lyapunov/report.hpp"
+#include "carom/analyses/kinds.hpp"
 #include "carom/base/error.hpp"
+#include "carom/files/ensembles.hpp"
 #include "cli/commands/ensemble_job.hpp"
 #include "cli/common.hpp"
 #include "cli/mpi_ranks.hpp"
-#include "cli/reports/diffusion_report.hpp"
 #include "cli/reports/doubts.hpp"
-#include "cli/reports/escape_report.hpp"
-#include "cli/reports/lyapunov_report.hpp"
-#include "io/progress.hpp"
+#include "files/progress.hpp"
 
 namespace carom::cli {
 
@@ -123,14 +125,14 @@ Result fly(const Options& options, const Fly<Result>& run, const System& system,
            EnsembleOptions<Result> how) {
   const double all = static_cast<double>(how.part.last - how.part.first);
   const std::uint64_t before = how.before ? how.before->done.size() : 0;
-  io::Progress progress(!options.quiet, all > 0 ? static_cast<double>(before) / all : 0.0);
+  files::Progress progress(!options.quiet, all > 0 ? static_cast<double>(before) / all : 0.0);
   if (progress.enabled())
     how.progress = [&](std::uint64_t trajectories, std::uint64_t hits) {
       if (progress.due())
         progress.show(
             static_cast<double>(trajectories) / all,
-            hits > 0 ? io::with_prefix(static_cast<double>(hits) / progress.seconds()) + "hits/s"
-                     : io::with_prefix(static_cast<double>(trajectories) / progress.seconds()) +
+            hits > 0 ? files::with_prefix(static_cast<double>(hits) / progress.seconds()) + "hits/s"
+                     : files::with_prefix(static_cast<double>(trajectories) / progress.seconds()) +
                            "trajectories/s");
     };
   return run(system, how);
@@ -160,7 +162,7 @@ template <class Result>
 int run_alone(const Options& options, const Fly<Result>& run) {
   check_engine(options);
   EnsembleOptions<Result> how = how_to_run<Result>(options);
-  std::optional<io::Progress> preparing(std::in_place, !options.quiet);
+  std::optional<files::Progress> preparing(std::in_place, !options.quiet);
   EnsembleJob<Result> job = job_of<Result>(options);
   preparing.reset();
   how.interrupted =

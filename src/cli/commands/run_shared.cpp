@@ -57,7 +57,7 @@ void send_parts(Ranks& ranks, const std::string& part, const std::string& first_
   const std::string bytes(std::istreambuf_iterator<char>(in), {});
   ranks.gather(bytes, [&](int rank, const std::string& text) {
     if (rank == 0) return;
-    io::write_new_file(io::part_of_rank(first_file, rank), text);
+    files::write_new_file(files::part_of_rank(first_file, rank), text);
   });
 }
 

@@ -15,11 +15,11 @@
 #include <string>
 #include <vector>
 
-#include "carom/ensemble/sampler.hpp"
+#include "carom/starts/sampler.hpp"
 #include "cli/commands/run_ensemble.hpp"
 #include "cli/temporary_folder.hpp"
-#include "io/checkpoint/rank_parts.hpp"
-#include "io/checkpoint/work_folder.hpp"
+#include "files/checkpoint/rank_parts.hpp"
+#include "files/checkpoint/work_folder.hpp"
 
 namespace carom::cli {
 
@@ -85,14 +85,15 @@ int add_up(const Options& options, EnsembleJob<Result>& job, const Ranks& ranks,
     throw_first_error(ends);
     std::vector<std::string> files;
     if (job.stored) files.push_back(job.output);
-    for (int rank = 0; rank < ranks.size(); ++rank) files.push_back(io::part_of_rank(file, rank));
-    sum = io::sum_of_ranks<Result>(job.output, files, job.shard);
+    for (int rank = 0; rank < ranks.size(); ++rank)
+      files.push_back(files::part_of_rank(file, rank));
+    sum = files::sum_of_ranks<Result>(job.output, files, job.shard);
     complete_sum(options, job.loaded.system, sum->result);
     try {
       refuse_nothing(options, job.loaded.system, sum->result);
     } catch (...) {
       kept = 0;  // there is nothing to go on with
-      if (!job.output.empty()) io::give_up_checkpoint(job.output);
+      if (!job.output.empty()) files::give_up_checkpoint(job.output);
       throw;
     }
     sum->status = status_of(sum->result.complete);
@@ -119,9 +120,9 @@ int run_shared(const Options& options, const Fly<Result>& run, Ranks& ranks) {
     if (!first) return;
     check_engine(options);
     how_to_run<Result>(options);
-    const io::Progress preparing(!options.quiet);
+    const files::Progress preparing(!options.quiet);
     job = job_of<Result>(options, Sharing::first);
-    if (!job.stored && !job.output.empty()) io::give_up_checkpoint(job.output);
+    if (!job.stored && !job.output.empty()) files::give_up_checkpoint(job.output);
   });
   const bool complete = job.stored && job.stored->result.complete;
   const std::string word = ranks.tell(ready.exception ? "failed" : complete ? nothing : go);
@@ -143,9 +144,9 @@ int run_shared(const Options& options, const Fly<Result>& run, Ranks& ranks) {
       if (!first) job = job_of<Result>(options, Sharing::other);
       if (job.output.empty()) temporary.emplace();
       file = temporary ? temporary->file("sum") : job.output;
-      if (temporary) std::filesystem::create_directory(io::folder_of(file));
-      fly_share(options, run, job, ranks, io::part_of_rank(file, ranks.rank()), meeting.stopped(),
-                end);
+      if (temporary) std::filesystem::create_directory(files::folder_of(file));
+      fly_share(options, run, job, ranks, files::part_of_rank(file, ranks.rank()),
+                meeting.stopped(), end);
     });
     meeting.end(mine.exception != nullptr);
   }
@@ -153,7 +154,7 @@ int run_shared(const Options& options, const Fly<Result>& run, Ranks& ranks) {
   const bool failed =
       share_end_of([&](ShareEnd&) { throw_first_error(ends); }).exception != nullptr;
   if (ranks.tell(failed ? "failed" : go) == go && temporary)
-    send_parts(ranks, io::part_of_rank(file, ranks.rank()), file);
+    send_parts(ranks, files::part_of_rank(file, ranks.rank()), file);
 
   int status = bad_input;
   const ShareEnd last = share_end_of([&](ShareEnd&) {

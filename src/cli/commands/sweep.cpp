@@ -17,13 +17,13 @@
 #include "cli/mpi_ranks.hpp"
 #include "cli/reports/sweep_report.hpp"
 #include "cli/temporary_folder.hpp"
-#include "io/archive/sweep_archive.hpp"
-#include "io/checkpoint/rank_parts.hpp"
-#include "io/checkpoint/work_folder.hpp"
+#include "files/checkpoint/rank_parts.hpp"
+#include "files/checkpoint/sweep_archive.hpp"
+#include "files/checkpoint/work_folder.hpp"
 
 namespace carom::cli {
 
-using io::Json;
+using files::Json;
 
 namespace {
 
@@ -80,8 +80,8 @@ void Sweep::prepare() {
   lock_ = lock_output(options_, file_);
   refuse_existing(file_, options_.force);
   catch_interrupts();  // from here on there is something to go on with
-  io::give_up_checkpoint(file_);
-  io::keep_plan(file_, result_.plan);
+  files::give_up_checkpoint(file_);
+  files::keep_plan(file_, result_.plan);
 }
 
 void Sweep::go_on(const std::string& file) {
@@ -89,14 +89,14 @@ void Sweep::go_on(const std::string& file) {
   if (!options_.output.empty() && options_.output != file_)
     throw InputError(Place{"command line", 0, 0, "--output"}, "a sweep goes on in the same archive",
                      "no -o beside --resume");
-  std::optional<io::StoredSweep> stored;
-  if (!io::has_sweep(file_)) {
-    stored = io::read_sweep(file_);
+  std::optional<files::StoredSweep> stored;
+  if (!files::has_sweep(file_)) {
+    stored = files::read_sweep(file_);
     complete_ = stored->complete;
     result_.plan = stored->plan;
     before_ = stored->origins;
   } else {
-    result_.plan = io::kept_plan(file_);
+    result_.plan = files::kept_plan(file_);
   }
   if (result_.plan.command != options_.command)
     throw InputError(Place{file_, 0, 0, ""},
@@ -114,21 +114,21 @@ void Sweep::go_on(const std::string& file) {
   lock_ = lock_output(options_, file_);
   // Now, and not after hours of computing.
   for (std::size_t i = 0; !stored && i < result_.plan.systems.size(); ++i)
-    io::kept_report(file_, result_.plan, i);
+    files::kept_report(file_, result_.plan, i);
   catch_interrupts();
-  if (stored) io::unpack_sweep(file_);
+  if (stored) files::unpack_sweep(file_);
 }
 
 bool Sweep::has_begun(std::size_t index) const {
-  const std::string value = io::value_of_sweep(file_, index);
-  return io::exists(value) || has_checkpoint(value) || !io::parts_of_ranks(value).empty();
+  const std::string value = files::value_of_sweep(file_, index);
+  return files::exists(value) || has_checkpoint(value) || !files::parts_of_ranks(value).empty();
 }
 
 // A value whose command cannot go on is done where its report is there. So is one that measured
 // nothing: its archive does not say why.
 bool Sweep::take_kept_report(std::size_t index) {
   if (file_.empty()) return false;
-  const auto report = io::kept_report(file_, result_.plan, index);
+  const auto report = files::kept_report(file_, result_.plan, index);
   if (!report) return false;
   SweepRow row(index, Json::parse(*report, file_));
   if (is_plain_ensemble(options_) && !row.measured_nothing()) return false;
@@ -175,14 +175,14 @@ int Sweep::compute_all() {
       if (first() && !result_.rows.back().doubts().empty()) worst = std::max<int>(worst, untrusted);
       continue;
     }
-    const std::string archive = file_.empty() ? "" : io::value_of_sweep(file_, i);
-    if (first() && !file_.empty()) io::remove_report(file_, i);  // of what is gone on with
+    const std::string archive = file_.empty() ? "" : files::value_of_sweep(file_, i);
+    if (first() && !file_.empty()) files::remove_report(file_, i);  // of what is gone on with
     const int status = compute(i, archive, task == resume_value);
     if (status == bad_input || status == usage) return status;
     const bool ended = status != stopped;
     if (first() && !file_.empty() && !result_.rows.empty()) {
       if (ended || is_plain_ensemble(options_)) {
-        io::keep_report(file_, result_.plan, i, result_.rows.back().report.text());
+        files::keep_report(file_, result_.plan, i, result_.rows.back().report.text());
       } else {
         std::remove(archive.c_str());
         result_.rows.pop_back();
@@ -196,7 +196,7 @@ int Sweep::compute_all() {
 
 // A complete sweep: its reports, or those that another window gives.
 int Sweep::show_stored() {
-  const io::StoredSweep stored = io::read_sweep(file_);
+  const files::StoredSweep stored = files::read_sweep(file_);
   const bool again = is_plain_ensemble(options_) && !options_.window.empty();
   int worst = done;
   for (std::size_t i = 0; i < stored.reports.size(); ++i) {
@@ -207,7 +207,7 @@ int Sweep::show_stored() {
     }
     const TemporaryFolder folder;
     const std::string archive = folder.file("value.h5");
-    if (!io::extract_value(file_, i, archive))
+    if (!files::extract_value(file_, i, archive))
       throw InputError(Place{file_, 0, 0, fmt::format("values/{}", i)}, "there is no archive",
                        "a sweep as carom wrote it");
     worst = std::max(worst, compute(i, archive, true));
@@ -221,8 +221,8 @@ int Sweep::show_stored() {
 void Sweep::say_what_is_kept() {
   bool any = false;
   for (std::size_t i = 0; i < result_.plan.systems.size() && !any; ++i)
-    any = has_begun(i) || io::has_report(file_, i);
-  if (!any) return io::remove_sweep(file_);
+    any = has_begun(i) || files::has_report(file_, i);
+  if (!any) return files::remove_sweep(file_);
   if (!options_.hidden_archive)
     warn(fmt::format("what was computed is kept; this goes on with it: carom {} --resume {}",
                      options_.command, file_));
@@ -231,7 +231,7 @@ void Sweep::say_what_is_kept() {
 int Sweep::finish(int status) {
   result_.status = status_of(status != stopped);
   if (const auto error = why_nothing(result_)) {
-    if (!file_.empty()) io::remove_sweep(file_);
+    if (!file_.empty()) files::remove_sweep(file_);
     throw *error;
   }
   end_sweep(options_, result_, file_, before_);
@@ -253,7 +253,7 @@ int Sweep::run() {
   if (ranks_) {
     const std::string plan = tell(first() ? result_.plan.json().text() : "");
     file_ = tell(file_);
-    if (!first()) result_.plan = io::SweepPlan::of(Json::parse(plan, "plan"), "plan");
+    if (!first()) result_.plan = files::SweepPlan::of(Json::parse(plan, "plan"), "plan");
     restore_options(result_.plan, options_);
   }
   int status = bad_input;
@@ -273,7 +273,7 @@ bool is_sweep(const Options& options) {
   if (!options.sweep.empty()) return true;
   if (options.resume.empty()) return false;
   const std::string file = archive_named(options.resume);
-  if (io::has_sweep(file) || io::is_sweep_archive(file)) return true;
+  if (files::has_sweep(file) || files::is_sweep_archive(file)) return true;
   if (!is_plain_ensemble(options) && options.command != "run" && options.command != "escape")
     throw InputError(Place{file, 0, 0, ""}, "there is no sweep to go on with",
                      fmt::format("an archive of carom {} --sweep", options.command));

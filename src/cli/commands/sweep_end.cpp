@@ -1,8 +1,8 @@
 // What becomes of a sweep that was computed: its archive, its report. Python uses it without ranks.
-#include "carom/io/archive.hpp"
+#include "carom/files/archive.hpp"
 #include "cli/commands/sweep.hpp"
 #include "cli/common.hpp"
-#include "io/archive/sweep_archive.hpp"
+#include "files/checkpoint/sweep_archive.hpp"
 
 namespace carom::cli {
 
@@ -32,8 +32,8 @@ void keep_sweep(const Options& options, const SweepResult& result, const std::st
   if (options.command != "relax") choose_engine(options.engine, base.system);
   Provenance origin = provenance_of(options, base.system, threads_of(options));
   origin.before = before;
-  io::write_sweep(file, base, result.plan, sweep_numbers(result), origin, result.status,
-                  result.status == "completed");
+  files::write_sweep(file, base, result.plan, sweep_numbers(result), origin, result.status,
+                     result.status == "completed");
 }
 
 void end_sweep(const Options& options, SweepResult& result, const std::string& file,

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "carom/base/error.hpp"
-#include "carom/io/archive.hpp"
+#include "carom/files/archive.hpp"
+#include "carom/files/ensembles.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
 
@@ -66,7 +67,7 @@ void refuse_without_use(const std::string& key, const std::string& command) {
                                      : "a key that is a number");
 }
 
-void refuse_given_twice(const io::SweptKey& swept, const Options& options) {
+void refuse_given_twice(const files::SweptKey& swept, const Options& options) {
   const SystemOverrides& o = options.overrides;
   const std::pair<const char*, const std::string*> typed[] = {
       {"seed", &o.seed},           {"trajectories", &o.trajectories},
@@ -87,10 +88,10 @@ void refuse_given_twice(const io::SweptKey& swept, const Options& options) {
 }
 
 // A system with the keys at these values.
-LoadedSystem system_at(const Options& options, const std::vector<io::SweptKey>& keys,
+LoadedSystem system_at(const Options& options, const std::vector<files::SweptKey>& keys,
                        std::size_t index) {
   Options one = options;
-  const std::vector<std::string> values = io::values_at(keys, index);
+  const std::vector<std::string> values = files::values_at(keys, index);
   for (std::size_t k = 0; k < keys.size(); ++k)
     one.overrides.set.emplace_back(keys[k].key, values[k]);
   try {
@@ -104,7 +105,7 @@ LoadedSystem system_at(const Options& options, const std::vector<io::SweptKey>& 
   }
 }
 
-void refuse_idle_integrator(const io::SweptKey& swept, const System& system) {
+void refuse_idle_integrator(const files::SweptKey& swept, const System& system) {
   if (swept.key.starts_with("integrator.") && engine_of(system) == "events")
     throw InputError(place_of(swept.key),
                      "no force acts: flights are exact, and nothing is integrated",
@@ -113,13 +114,13 @@ void refuse_idle_integrator(const io::SweptKey& swept, const System& system) {
 
 }  // namespace
 
-std::vector<io::SweptKey> swept_keys(const Options& options) {
-  std::vector<io::SweptKey> keys;
+std::vector<files::SweptKey> swept_keys(const Options& options) {
+  std::vector<files::SweptKey> keys;
   for (const std::string& typed : options.sweep) {
-    io::SweptKey swept = io::swept_key(typed);
+    files::SweptKey swept = files::swept_key(typed);
     refuse_without_use(swept.key, options.command);
     refuse_given_twice(swept, options);
-    for (const io::SweptKey& other : keys)
+    for (const files::SweptKey& other : keys)
       if (other.key == swept.key)
         throw InputError(place_of(swept.key), "it is swept twice", "two keys that differ");
     keys.push_back(std::move(swept));
@@ -127,21 +128,21 @@ std::vector<io::SweptKey> swept_keys(const Options& options) {
   if (keys.size() > 2)
     throw InputError(place_of(keys[2].key), "three keys are too many",
                      "one key, or two of a plane");
-  if (io::points_of(keys) > io::most_swept)
+  if (files::points_of(keys) > files::most_swept)
     throw InputError(place_of(keys[0].key),
-                     fmt::format("{} points are too many", io::points_of(keys)),
-                     fmt::format("at most {}", io::most_swept));
+                     fmt::format("{} points are too many", files::points_of(keys)),
+                     fmt::format("at most {}", files::most_swept));
   return keys;
 }
 
-io::SweepPlan plan_of_sweep(const Options& options) {
-  io::SweepPlan plan;
+files::SweepPlan plan_of_sweep(const Options& options) {
+  files::SweepPlan plan;
   plan.command = options.command;
   plan.keys = swept_keys(options);
-  for (std::size_t i = 0; i < io::points_of(plan.keys); ++i) {
+  for (std::size_t i = 0; i < files::points_of(plan.keys); ++i) {
     const LoadedSystem loaded = system_at(options, plan.keys, i);
     if (i == 0)
-      for (const io::SweptKey& swept : plan.keys) refuse_idle_integrator(swept, loaded.system);
+      for (const files::SweptKey& swept : plan.keys) refuse_idle_integrator(swept, loaded.system);
     plan.systems.push_back(loaded.resolved_toml);
     plan.system_name = loaded.system.name;
   }
@@ -157,7 +158,7 @@ io::SweepPlan plan_of_sweep(const Options& options) {
   return plan;
 }
 
-void refuse_another(const io::SweepPlan& stored, const io::SweepPlan& asked,
+void refuse_another(const files::SweepPlan& stored, const files::SweepPlan& asked,
                     const std::string& file) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(Place{file, 0, 0, ""}, "this is another sweep than the stored one: " + what,
@@ -172,7 +173,7 @@ void refuse_another(const io::SweepPlan& stored, const io::SweepPlan& asked,
       refuse(fmt::format("at value {}, {}", i + 1, differs));
 }
 
-void restore_options(const io::SweepPlan& plan, Options& options) {
+void restore_options(const files::SweepPlan& plan, Options& options) {
   for (const auto& [name, text] : plan.options) {
     for (const auto& [known, flag] : kept_flags)
       if (name == known) options.*flag = true;

@@ -4,20 +4,20 @@
 #include <vector>
 
 #include "cli/commands/sweep.hpp"
-#include "io/checkpoint/sweep_files.hpp"
+#include "files/checkpoint/sweep_files.hpp"
 
 namespace carom::cli {
 
 /// The keys that --sweep gives. Throws InputError for one that means nothing to the command.
-std::vector<io::SweptKey> swept_keys(const Options&);
+std::vector<files::SweptKey> swept_keys(const Options&);
 /// The plan of the options. Reads the system of every value: throws InputError for one that is bad
 /// input, and for a key that means nothing to the command.
-io::SweepPlan plan_of_sweep(const Options&);
+files::SweepPlan plan_of_sweep(const Options&);
 /// Throws InputError, with `file` as its place, where two plans differ, and says in what. Windows
 /// may differ.
-void refuse_another(const io::SweepPlan& stored, const io::SweepPlan& asked,
+void refuse_another(const files::SweepPlan& stored, const files::SweepPlan& asked,
                     const std::string& file);
 /// Options that are no part of a system, as the plan keeps them.
-void restore_options(const io::SweepPlan&, Options&);
+void restore_options(const files::SweepPlan&, Options&);
 
 }  // namespace carom::cli

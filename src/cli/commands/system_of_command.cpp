@@ -1,6 +1,6 @@
+#include "analyses/escape/command_options.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/ensemble_job.hpp"
-#include "cli/commands/escape_options.hpp"
 #include "cli/common.hpp"
 
 namespace carom::cli {

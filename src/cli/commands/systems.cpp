@@ -10,7 +10,7 @@
 
 namespace carom::cli {
 
-using io::Json;
+using files::Json;
 
 int systems(const Options& options) {
   const std::vector<BuiltinSystem>& all = builtin_systems();

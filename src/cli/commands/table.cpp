@@ -3,13 +3,13 @@
 #include <string>
 
 #include "carom/base/error.hpp"
-#include "carom/ensemble/stopwatch.hpp"
+#include "carom/base/stopwatch.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
 #include "cli/picture.hpp"
 #include "cli/reports/table_report.hpp"
-#include "io/checkpoint/work_folder.hpp"
-#include "io/progress.hpp"
+#include "files/checkpoint/work_folder.hpp"
+#include "files/progress.hpp"
 
 namespace carom::cli {
 
@@ -19,7 +19,7 @@ int table(const Options& options) {
     refuse_other_endings(options.output);
     refuse_existing(options.output, options.force);
   }
-  std::optional<io::Progress> preparing(std::in_place, !options.quiet);
+  std::optional<files::Progress> preparing(std::in_place, !options.quiet);
   const LoadedSystem loaded = load_system(options.system, options.overrides);
   const System& system = loaded.system;
   const TableMeasure measured = measure(*system.table);
@@ -27,7 +27,7 @@ int table(const Options& options) {
   if (!options.output.empty()) {
     const TemporaryFolder folder;
     const std::string file = folder.file("table.toml");
-    if (!io::write_new_file(file, loaded.resolved_toml))
+    if (!files::write_new_file(file, loaded.resolved_toml))
       throw InputError("cannot write '" + file + "'");
     if (const int status = draw(file, options.output, options.force); status != done) return status;
   }

@@ -9,14 +9,15 @@
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
 #include "carom/events/report.hpp"
+#include "carom/files/ensembles.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
-#include "io/progress.hpp"
+#include "files/progress.hpp"
 
 namespace carom::cli {
 
-using io::Json;
+using files::Json;
 
 namespace {
 
@@ -132,7 +133,7 @@ int validate(const Options& options) {
   validation::CheckOptions how;
   how.threads = threads_of(options);
   how.interrupted = &catch_interrupts();
-  io::Progress progress(!options.quiet && options.json);  // text shows its progress by itself
+  files::Progress progress(!options.quiet && options.json);  // text shows its progress by itself
   const Validation all = run_validation(
       options, how,
       [&](double share, const std::string& name) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/options.hpp"
-#include "io/json.hpp"
+#include "files/json.hpp"
 #include "validation/cases/cases.hpp"
 
 namespace carom::cli {
@@ -27,7 +27,7 @@ struct Validation {
 Validation run_validation(const Options&, const validation::CheckOptions&,
                           const std::function<void(double share, const std::string& name)>& before,
                           const std::function<void(const Validation::Done&)>& after);
-io::Json validation_json(const Validation&);
+files::Json validation_json(const Validation&);
 /// `verbose`: with the seed and the digest.
 std::string text_of(const Validation::Done&, bool verbose = false);
 /// The last line.

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <sstream>
 
-#include "carom/io/system_file.hpp"
+#include "carom/files/system_file.hpp"
 
 namespace carom::cli::manual {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <sstream>
 
-#include "carom/io/system_file.hpp"
+#include "carom/files/system_file.hpp"
 #include "carom_version.hpp"
 #include "cli/manual/manual.hpp"
 

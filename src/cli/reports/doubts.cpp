@@ -6,16 +6,16 @@
 #include <set>
 #include <string_view>
 
-#include "carom/ensemble/parts.hpp"
 #include "carom/events/report.hpp"
 #include "carom/integrators/scheme.hpp"
+#include "carom/results/ensemble_result.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
-#include "io/progress.hpp"
+#include "files/progress.hpp"
 
 namespace carom::cli {
 
-using io::Json;
+using files::Json;
 
 namespace {
 
@@ -206,8 +206,8 @@ std::string pace_text(const System& system, const EventCounts& events, const Ste
                            : events.contacts == 0 ? "hits/s"
                            : events.hits == 0     ? "contacts/s"
                                                   : "hits and contacts/s";
-  return io::with_prefix(static_cast<double>(by_steps ? steps.steps : events.all()) /
-                         std::max(seconds, 1e-9)) +
+  return files::with_prefix(static_cast<double>(by_steps ? steps.steps : events.all()) /
+                            std::max(seconds, 1e-9)) +
          unit;
 }
 

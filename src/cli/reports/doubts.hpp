@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "carom/ensemble/diffusion.hpp"
-#include "carom/ensemble/escape.hpp"
-#include "carom/ensemble/lyapunov.hpp"
-#include "carom/ensemble/section_run.hpp"
-#include "carom/ensemble/single_run.hpp"
-#include "io/json.hpp"
+#include "carom/analyses/diffusion.hpp"
+#include "carom/analyses/escape.hpp"
+#include "carom/analyses/lyapunov.hpp"
+#include "carom/analyses/run.hpp"
+#include "carom/analyses/section.hpp"
+#include "files/json.hpp"
 
 namespace carom::cli {
 
@@ -43,9 +43,9 @@ std::string energy_doubt(const System&, const EnergyError&);
 std::string fates_text(const FateCounts&);
 /// `reports` of those that failed, if there are any: index, reason, and state in hexadecimal
 /// numbers.
-void add_reports(io::Json&, const Reports&);
+void add_reports(files::Json&, const Reports&);
 /// `reason` and `state` of a report.
-void add_report(io::Json&, const std::string& report);
+void add_report(files::Json&, const std::string& report);
 /// Prints to standard error why some of `all` that failed did: the first reasons, each with the
 /// state of one, and how many more there are.
 void warn_of(const Reports&, std::uint64_t all);
@@ -54,7 +54,7 @@ void warn_of(const SingleRunResult&);
 
 /// Keys of integrated motion: `steps`, `force_evaluations`, and with unresolved = "count"
 /// `unresolved_steps` and `first_unresolved`.
-void add_steps(io::Json&, const System&, const StepCounts&);
+void add_steps(files::Json&, const System&, const StepCounts&);
 /// The same as a text that goes on a sentence: "1 200 steps, 13 200 force evaluations"; "" where
 /// nothing is integrated.
 std::string steps_text(const System&, const StepCounts&);

@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
-#include "carom/ensemble/engine.hpp"
+#include "carom/engines/engine.hpp"
+#include "carom/files/ensembles.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
 
 namespace carom::cli {
 
-using io::Json;
+using files::Json;
 
 std::string head_text(const System& system, std::uint64_t trajectories, double last_time,
                       bool complete, const EnsembleContext& context) {
@@ -73,5 +74,11 @@ Json ensemble_json(const System& system, const EnsembleResult& result,
   if (context.shard.of > 1) json.set("shard", text_of(context.shard));
   return json;
 }
+
+Json estimate_json(const Estimate& e) {
+  return Json::object().set("value", e.value).set("stderr", e.error);
+}
+
+std::string with_error(const Estimate& e) { return with_error(e.value, e.error); }
 
 }  // namespace carom::cli

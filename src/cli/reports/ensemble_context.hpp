@@ -6,10 +6,13 @@
 #include <optional>
 #include <string>
 
-#include "carom/ensemble/parts.hpp"
-#include "carom/ensemble/system.hpp"
-#include "carom/io/archive.hpp"
-#include "io/json.hpp"
+#include "carom/files/archive.hpp"
+#include "carom/files/ensembles.hpp"
+#include "carom/lanes/lane_effort.hpp"
+#include "carom/results/ensemble_result.hpp"
+#include "carom/results/estimate.hpp"
+#include "carom/system/system.hpp"
+#include "files/json.hpp"
 
 namespace carom::cli {
 
@@ -35,7 +38,10 @@ std::string verbose_text(const System&, const EnsembleResult&, const EnsembleCon
 /// Why quasi-random starts give no errors, as a phrase: so many of their replicates lack what is
 /// counted ("have no trajectory"). "" where none does.
 std::string no_errors(std::ptrdiff_t empty, const char* lack);
+/// {value, stderr}, and "value +- error".
+files::Json estimate_json(const Estimate&);
+std::string with_error(const Estimate&);
 /// The keys with which the report of every ensemble begins.
-io::Json ensemble_json(const System&, const EnsembleResult&, const EnsembleContext&);
+files::Json ensemble_json(const System&, const EnsembleResult&, const EnsembleContext&);
 
 }  // namespace carom::cli

@@ -12,7 +12,7 @@
 
 namespace carom::cli {
 
-using io::Json;
+using files::Json;
 
 namespace {
 

@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "io/json.hpp"
+#include "files/json.hpp"
 
 namespace carom::cli {
 
 /// A line each, and below them where each is from.
 std::string schemes_text();
-io::Json schemes_json();
+files::Json schemes_json();
 
 }  // namespace carom::cli

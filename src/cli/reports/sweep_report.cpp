@@ -15,7 +15,7 @@
 
 namespace carom::cli {
 
-using io::Json;
+using files::Json;
 
 namespace {
 
@@ -147,7 +147,7 @@ std::string shown_value(const std::string& text) {
   return text.size() <= longest ? text : fmt::format("{:.6g}", ExactNumber(text).to_double());
 }
 
-std::string named(const io::SweepPlan& plan, std::size_t index) {
+std::string named(const files::SweepPlan& plan, std::size_t index) {
   const std::vector<std::string> values = plan.at(index);
   std::string text;
   for (std::size_t k = 0; k < values.size(); ++k)
@@ -155,14 +155,14 @@ std::string named(const io::SweepPlan& plan, std::size_t index) {
   return text;
 }
 
-bool sweeps(const io::SweepPlan& plan, const std::string& key) {
+bool sweeps(const files::SweepPlan& plan, const std::string& key) {
   return std::any_of(plan.keys.begin(), plan.keys.end(),
-                     [&](const io::SweptKey& swept) { return swept.key == key; });
+                     [&](const files::SweptKey& swept) { return swept.key == key; });
 }
 
 std::string head(const SweepResult& result) {
   std::string text;
-  for (const io::SweptKey& key : result.plan.keys)
+  for (const files::SweptKey& key : result.plan.keys)
     text += fmt::format("{}{} of {} from {} to {}", text.empty() ? "" : ", ",
                         counted(key.values.size(), "value"), key.key,
                         shown_value(key.values.front()), shown_value(key.values.back()));
@@ -264,7 +264,8 @@ std::optional<InputError> why_nothing(const SweepResult& result) {
       "measured");
 }
 
-std::vector<SweepColumn> sweep_table(const io::SweepPlan& plan, const std::vector<SweepRow>& rows) {
+std::vector<SweepColumn> sweep_table(const files::SweepPlan& plan,
+                                     const std::vector<SweepRow>& rows) {
   std::vector<SweepColumn> columns;
   for (std::size_t k = 0; k < plan.keys.size(); ++k) {
     columns.push_back({plan.keys[k].key, {}, {}});
@@ -295,13 +296,13 @@ std::vector<SweepColumn> sweep_table(const io::SweepPlan& plan, const std::vecto
   return columns;
 }
 
-std::vector<io::SweepNumbers> sweep_numbers(const SweepResult& result) {
-  std::vector<io::SweepNumbers> numbers;
+std::vector<files::SweepNumbers> sweep_numbers(const SweepResult& result) {
+  std::vector<files::SweepNumbers> numbers;
   const std::vector<SweepColumn> columns = sweep_table(result.plan, result.rows);
   for (std::size_t c = result.plan.keys.size(); c < columns.size(); ++c) {
     if (!columns[c].texts.empty()) continue;
-    io::SweepNumbers made{columns[c].name, "As in the reports; NaN: none",
-                          std::vector<double>(result.plan.systems.size(), none)};
+    files::SweepNumbers made{columns[c].name, "As in the reports; NaN: none",
+                             std::vector<double>(result.plan.systems.size(), none)};
     for (std::size_t i = 0; i < result.rows.size(); ++i)
       made.values[result.rows[i].index] = columns[c].numbers[i];
     numbers.push_back(std::move(made));
@@ -320,7 +321,7 @@ Json sweep_json(const SweepResult& result) {
   json.set("seconds", sum_of(result, "seconds")).set("cpu_seconds", sum_of(result, "cpu_seconds"));
   json.set("status", result.status);
   Json keys = Json::array(), rows = Json::array();
-  for (const io::SweptKey& key : result.plan.keys) {
+  for (const files::SweptKey& key : result.plan.keys) {
     Json values = Json::array();
     for (const std::string& value : key.values) values.push(value);
     keys.push(Json::object().set("key", key.key).set("values", std::move(values)));

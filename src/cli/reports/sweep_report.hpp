@@ -7,20 +7,20 @@
 #include <vector>
 
 #include "carom/base/error.hpp"
-#include "io/archive/sweep_archive.hpp"
-#include "io/json.hpp"
+#include "files/checkpoint/sweep_archive.hpp"
+#include "files/json.hpp"
 
 namespace carom::cli {
 
 /// A value that was computed.
 struct SweepRow {
   /// `text`: the doubts about it, or "".
-  SweepRow(std::size_t row, io::Json printed, const std::string& text = {})
+  SweepRow(std::size_t row, files::Json printed, const std::string& text = {})
       : index(row), report(std::move(printed)) {
     if (!text.empty()) report.set("doubts", text);
   }
   std::size_t index;
-  io::Json report;  ///< as the command prints it with --json, with `doubts` if there are any
+  files::Json report;  ///< as the command prints it with --json, with `doubts` if there are any
   /// Why it cannot be trusted, a line each; "" if it can.
   std::string doubts() const;
   /// Is it one that its command alone refuses after it was computed?
@@ -29,7 +29,7 @@ struct SweepRow {
 
 /// A sweep with what was computed of it.
 struct SweepResult {
-  io::SweepPlan plan;
+  files::SweepPlan plan;
   std::vector<SweepRow> rows;  ///< in the order of their index
   std::string title;
   std::string status;   ///< "completed" or "interrupted"
@@ -44,16 +44,16 @@ struct SweepColumn {
 };
 /// The keys, then what the command's reports have of value and error ("rate", "rate_stderr"). A row
 /// for each of `rows`.
-std::vector<SweepColumn> sweep_table(const io::SweepPlan&, const std::vector<SweepRow>& rows);
+std::vector<SweepColumn> sweep_table(const files::SweepPlan&, const std::vector<SweepRow>& rows);
 /// The numbers of the same for archives: a row for each value of the plan, NaN where it was not
 /// computed.
-std::vector<io::SweepNumbers> sweep_numbers(const SweepResult&);
+std::vector<files::SweepNumbers> sweep_numbers(const SweepResult&);
 
 /// The error of a sweep none of whose values measured what its command is run for: the command
 /// refuses each of them alone.
 std::optional<InputError> why_nothing(const SweepResult&);
 
-io::Json sweep_json(const SweepResult&);
+files::Json sweep_json(const SweepResult&);
 std::string sweep_text(const SweepResult&);
 
 }  // namespace carom::cli

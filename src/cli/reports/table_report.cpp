@@ -11,7 +11,7 @@
 
 namespace carom::cli {
 
-using io::Json;
+using files::Json;
 
 namespace {
 

@@ -1,0 +1,37 @@
+// The kinds of ensembles that can be continued, parted and merged: the only list of them.
+#pragma once
+
+#include <string_view>
+#include <type_traits>
+
+#include "carom/analyses/diffusion.hpp"
+#include "carom/analyses/escape.hpp"
+#include "carom/analyses/lyapunov.hpp"
+
+namespace carom {
+
+/// Calls make(Result) for each of them, as for an explicit instantiation.
+#define CAROM_FOR_ENSEMBLES(make) make(EscapeResult) make(DiffusionResult) make(LyapunovResult)
+
+/// Their names, in archives and on the command line.
+inline const char* kind_of(const EscapeResult&) { return "escape"; }
+inline const char* kind_of(const DiffusionResult&) { return "diffusion"; }
+inline const char* kind_of(const LyapunovResult&) { return "lyapunov"; }
+
+/// Calls `visit` with std::type_identity of the result of that kind. False: there is no such kind.
+template <class Visit>
+bool for_kind(std::string_view kind, Visit visit) {
+#define CAROM_IF_KIND(Result)            \
+  if (kind == kind_of(Result())) {       \
+    visit(std::type_identity<Result>()); \
+    return true;                         \
+  }
+  CAROM_FOR_ENSEMBLES(CAROM_IF_KIND)
+#undef CAROM_IF_KIND
+  return false;
+}
+inline bool is_ensemble(std::string_view kind) {
+  return for_kind(kind, [](auto) {});
+}
+
+}  // namespace carom

@@ -1,0 +1,134 @@
+// What the result of a diffusion run holds.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "carom/analyses/diffusion.hpp"
+#include "results/describe_ends.hpp"
+
+namespace carom::analyses {
+
+// Group by group, for errors of whatever is computed from the moments.
+template <class V, class Sums>
+void describe_moments(V& v, Sums& sums, const System& system) {
+  v.group("msd", "Moments of the displacement in the plane since t = 0");
+  v.kept_rows([&] { return DisplacementMoments(sums, system.particles.size()).points(); });
+  if constexpr (V::reads) sums = DisplacementSums(v.template values<double>("msd", "t"));
+  v.group("msd_groups",
+          "Sums by group of trajectories (index modulo 128): row group * times + time");
+  const std::size_t times = sums.times().size(), count = DisplacementSums::groups * times;
+  std::vector<DisplacementSums::Sum> read(V::reads ? count : 0);
+  const auto row = [&](std::size_t i) -> decltype(auto) {
+    if constexpr (V::reads)
+      return (read[i]);
+    else
+      return sums.of(i / times, i % times);
+  };
+  v.kept_each(
+      {"count", "1", "Particles there at t"},
+      count, [&](std::size_t i) -> auto& { return row(i).count; });
+  v.computed({"square", "length^2", "Sum of their squared displacements"}, [&] {
+    std::vector<double> rounded;
+    for (std::size_t i = 0; i < count; ++i) rounded.push_back(row(i).square.value());
+    return rounded;
+  });
+  v.sums(
+      {"square_digits", "length^2",
+       "The same without rounding: in each row `digits` numbers, the i-th of them times "
+       "2^(32 (first + i) - 1074)"},
+      count, [&](std::size_t i) -> auto& { return row(i).square; });
+  v.sums(
+      {"fourth_digits", "length^4", "Sum of the fourth powers of their displacements, likewise"},
+      count, [&](std::size_t i) -> auto& { return row(i).fourth; });
+  v.sums(
+      {"velocities_digits", "length^2/time^2", "Sum of v(t).v(0), likewise"},
+      count, [&](std::size_t i) -> auto& { return row(i).velocities; });
+  v.sums(
+      {"along_digits", "length^2/time", "Sum of v(0).(r(t) - r(0)), likewise"},
+      count, [&](std::size_t i) -> auto& { return row(i).along; });
+  if constexpr (V::reads)
+    for (std::size_t i = 0; i < count; ++i) sums.merge(i / times, i % times, read[i]);
+}
+
+// Of each group the bins that are not empty, a row each.
+template <class V, class At>
+void describe_flights(V& v, const std::string& prefix, At at) {
+  std::vector<std::uint64_t> groups, counts;
+  std::vector<double> from;
+  if constexpr (!V::reads)
+    for (std::size_t g = 0; g < FreePathSums::groups; ++g)
+      for (const auto& bin : at(g).bins.bins())
+        if (bin.count > 0) {
+          groups.push_back(g);
+          from.push_back(bin.from);
+          counts.push_back(bin.count);
+        }
+  const std::string group = prefix + "group", start = prefix + "from", count = prefix + "count",
+                    longer = prefix + "longer";
+  v.kept_all({group.c_str(), "1", "Group of trajectories (index modulo 128)"}, groups);
+  v.kept_all({start.c_str(), "length", "Start of a bin, eight to a factor of two"}, from);
+  v.kept_all({count.c_str(), "1", "Flights of the group in this bin"}, counts);
+  v.kept_each(
+      {longer.c_str(), "1", "Flights of each group beyond the limit"},
+      FreePathSums::groups, [&](std::size_t g) -> auto& { return at(g).longer; });
+  if constexpr (V::reads) {
+    v.expect(groups.size() == counts.size() && groups.size() == from.size(),
+             "has columns of different lengths");
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      v.expect(groups[i] < FreePathSums::groups && from[i] > 0.0 &&
+                   FreePathSums::Bins::bin_of(from[i]).from == from[i],
+               "has rows that are no bins");
+      at(groups[i]).bins.add(from[i], counts[i]);
+    }
+  }
+}
+
+template <class V, class Sums>
+void describe_free_paths(V& v, Sums& sums) {
+  if (v.group_if(sums.counted(), "free_paths", "Lengths of flights from one hit to the next"))
+    v.kept_rows([&] { return free_paths_of(sums).between.bins; });
+  if (v.group_if(sums.counted(), "free_paths_at_start", "Lengths of flights from the start"))
+    v.kept_rows([&] { return free_paths_of(sums).at_start.bins; });
+  if (!v.group_if(sums.counted(), "free_path_groups",
+                  "The same by group of trajectories (index modulo 128)"))
+    return;
+  double limit = sums.limit();
+  v.kept({"limit", "length", "Flights of this length or more are only counted as longer"}, limit);
+  std::vector<FreePathSums::Sum> read(V::reads ? FreePathSums::groups : 0);
+  const auto of = [&](std::size_t g) -> decltype(auto) {
+    if constexpr (V::reads)
+      return (read[g]);
+    else
+      return sums.of(g);
+  };
+  v.kept_each(
+      {"hits", "1", "Hits of the particles of each group"},
+      FreePathSums::groups, [&](std::size_t g) -> auto& { return of(g).hits; });
+  v.sums(
+      {"path_digits", "length",
+       "Length of all that they flew, without rounding: digits as of /msd_groups"},
+      FreePathSums::groups, [&](std::size_t g) -> auto& { return of(g).path; });
+  describe_flights(
+      v, "", [&](std::size_t g) -> auto& { return of(g).between; });
+  describe_flights(
+      v, "start_", [&](std::size_t g) -> auto& { return of(g).at_start; });
+  if constexpr (V::reads) {
+    sums = FreePathSums(limit);
+    for (std::size_t g = 0; g < read.size(); ++g) sums.merge(g, read[g]);
+  }
+}
+
+template <class V, results::OrConst<DiffusionResult> Result>
+void describe(V& v, Result& result, const System& system) {
+  v.group("fates", "Numbers of particles by their end before the last report time");
+  results::describe_ends(v, result, system);
+  v.kept({"energy_change", "energy", "With forces: the largest change of a trajectory's energy"},
+         result.energy_change);
+  describe_moments(v, result.sums, system);
+  describe_free_paths(v, result.free_paths);
+}
+
+}  // namespace carom::analyses

@@ -1,0 +1,23 @@
+// What starts that are not stationary do to exponents.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "carom/analyses/lyapunov.hpp"
+#include "files/json.hpp"
+
+namespace carom::cli {
+
+/// `starts`: whether they are stationary for the flow; starts of the map are drawn from the flow's
+/// measure; `drift`.
+void add_starts(files::Json&, const System&, const LyapunovResult&, const LyapunovEstimate&);
+/// What was drawn in place of starts of the map; "" where nothing was, as in older archives.
+std::string drawn_text(const System&, const LyapunovResult&);
+/// Particles that would not have started on a wall, and do not count.
+std::uint64_t uncounted(const System&, const LyapunovResult&);
+/// Doubts about exponents that remember their starts, as phrases.
+std::vector<std::string> drift_notes(const System&, const LyapunovResult&, const LyapunovEstimate&);
+
+}  // namespace carom::cli

@@ -1,0 +1,116 @@
+#include "carom/analyses/relax/archive.hpp"
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "carom/base/error.hpp"
+#include "files/checkpoint/ensemble_columns.hpp"
+#include "files/checkpoint/ensemble_files.hpp"
+#include "files/hdf5/archive_file.hpp"
+#include "files/hdf5/checksums.hpp"
+#include "files/hdf5/fields.hpp"
+
+namespace carom {
+
+using namespace files;
+using hdf5::Handle;
+
+namespace {
+
+constexpr const char* relax_archive_kind = "relax";
+
+// A particle of an equilibrium, and one of its motions.
+struct ParticleRow {
+  std::uint64_t equilibrium = 0;
+  double x = 0.0, y = 0.0;
+  std::int64_t wall = -1;
+};
+struct ModeRow : NormalMode {
+  std::uint64_t equilibrium = 0;
+};
+
+}  // namespace
+
+template <>
+struct Fields<ParticleRow> {
+  using P = ParticleRow;
+  static constexpr std::tuple list{
+      field("equilibrium", "1", "Row of /equilibria", &P::equilibrium),
+      field("x", "length", "Position", &P::x), field("y", "length", "Position", &P::y),
+      field("wall", "1", "Index of the wall that holds it; -1: none", &P::wall)};
+};
+template <>
+struct Fields<ModeRow> {
+  static constexpr auto list = std::tuple_cat(
+      std::tuple{field("equilibrium", "1", "Row of /equilibria", &ModeRow::equilibrium)},
+      Fields<NormalMode>::list);
+};
+
+void write_equilibria(const std::string& target, const LoadedSystem& loaded,
+                      const Provenance& origin, const RelaxResult& result, bool force,
+                      ArchiveLock lock) {
+  if (!lock) lock = lock_archive(target);
+  refuse_existing(target, force);
+  ArchiveFile file = ArchiveFile::create(aside_of(target), target);
+  file.write_head(relax_archive_kind, loaded, origin);
+  {
+    const Handle group = file.group("equilibria", "Where all forces vanish, by rising energy");
+    write_numbers(group.get(), result, target);
+    write_columns(group.get(), std::span(result.equilibria), target);
+    std::vector<ParticleRow> particles;
+    std::vector<ModeRow> modes;
+    for (std::uint64_t i = 0; i < result.equilibria.size(); ++i) {
+      const Equilibrium& e = result.equilibria[i];
+      for (std::size_t k = 0; k < e.positions.size(); ++k)
+        particles.push_back({i, e.positions[k].x, e.positions[k].y, e.walls[k]});
+      for (const NormalMode& m : e.modes) modes.push_back({m, i});
+    }
+    write_columns(file.group("equilibria/particles", "Their particles, in order").get(),
+                  std::span<const ParticleRow>(particles), target);
+    write_columns(
+        file.group("equilibria/modes", "Their small motions exp((growth + i frequency) t)").get(),
+        std::span<const ModeRow>(modes), target);
+    const Handle provenance = file.open_group("provenance");
+    hdf5::change_attribute(provenance.get(), "threads", std::int64_t{result.threads}, target);
+  }
+  file.write_seconds({result.seconds, result.cpu_seconds});
+  file.set_status(result.complete ? "completed" : "interrupted", result.complete);
+  file.keep_as(target);
+  give_up_checkpoint(target);
+}
+
+StoredEquilibria read_equilibria(const std::string& name) {
+  const Handle file =
+      open_archive(name, "the file is not an archive", "an archive written by carom relax -o");
+  if (hdf5::read_string_attribute(file.get(), "kind", name) != relax_archive_kind)
+    throw InputError(Place{name, 0, 0, ""}, "the archive holds no equilibria",
+                     "an archive written by carom relax -o");
+  hdf5::verify(file.get(), name);
+  StoredEquilibria stored;
+  stored.system_toml = hdf5::read_text(file.get(), "system", name);
+  const Handle provenance = open_group(file.get(), "provenance", name);
+  stored.system_name = hdf5::read_string_attribute(provenance.get(), "system", name);
+  RelaxResult& result = stored.result;
+  result.complete = hdf5::read_integer_attribute(file.get(), "complete", name) != 0;
+  result.threads =
+      static_cast<int>(hdf5::read_integer_attribute(provenance.get(), "threads", name));
+  const Seconds seconds = ArchiveFile::read_seconds(provenance.get(), name);
+  result.seconds = seconds.wall;
+  result.cpu_seconds = seconds.cpu;
+  const Handle group = open_group(file.get(), "equilibria", name);
+  read_numbers(group.get(), result, name);
+  result.equilibria = read_all_rows<Equilibrium>(group.get(), name);
+  const Handle particles = open_group(file.get(), "equilibria/particles", name),
+               modes = open_group(file.get(), "equilibria/modes", name);
+  for (const ParticleRow& p : read_all_rows<ParticleRow>(particles.get(), name)) {
+    Equilibrium& e = result.equilibria.at(p.equilibrium);
+    e.positions.push_back({p.x, p.y});
+    e.walls.push_back(static_cast<int>(p.wall));
+  }
+  for (const ModeRow& m : read_all_rows<ModeRow>(modes.get(), name))
+    result.equilibria.at(m.equilibrium).modes.push_back(m);
+  return stored;
+}
+
+}  // namespace carom

@@ -1,0 +1,28 @@
+// carom run --precision certified.
+#pragma once
+
+#include "carom/certify/certified_orbit.hpp"
+#include "cli/common.hpp"
+
+namespace carom::cli {
+
+/// The system's options with those that belong to a run.
+SystemOverrides run_overrides(const Options&);
+
+/// Throws InputError for a system whose motion only doubles follow.
+void check_form(const System&, const char* option);
+/// A start that was drawn: its doubles, taken exactly.
+ExactStart exact_start(const State&);
+
+/// What the options ask for; draws the start into the system. Throws InputError where a system or
+/// an option has no certified form.
+CertifiedTask certified_task(const Options&, LoadedSystem&);
+files::Json certified_json(const System&, const CertifiedEnd&, const CertifiedTask&,
+                           const CertifiedEffort&, const std::string& output, double seconds,
+                           double cpu_seconds);
+std::string certified_text(const System&, const CertifiedEnd&, const CertifiedTask&,
+                           const CertifiedEffort&, const std::string& output, double seconds);
+
+int run_certified(const Options&);
+
+}  // namespace carom::cli

@@ -1,0 +1,95 @@
+#include "analyses/section/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/common.hpp"
+#include "cli/reports/aligned.hpp"
+#include "cli/reports/doubts.hpp"
+#include "files/describe/json_out.hpp"
+#include "results/describe_ends.hpp"
+
+namespace carom::cli {
+
+using files::Json;
+
+namespace {
+
+constexpr std::size_t orbits_shown = 12;
+
+}  // namespace
+
+void OrbitLines::add(const std::vector<SectionPoint>& points) {
+  for (const SectionPoint& p : points) {
+    if (lines_.empty() || lines_.back().orbit != p.orbit) {
+      if (lines_.size() == orbits_shown) return;
+      lines_.push_back({p.orbit, 0, p.v_parallel, p.v_parallel, 0});
+    }
+    Line& line = lines_.back();
+    ++line.points;
+    line.from = std::min(line.from, p.v_parallel);
+    line.to = std::max(line.to, p.v_parallel);
+    line.last_time = p.t;
+  }
+}
+
+std::string OrbitLines::table() const {
+  std::vector<Column> columns{{"orbit", {}}, {"points", {}}, {"last time", {}}};
+  std::vector<std::string> from, to;
+  for (const Line& line : lines_) {
+    columns[0].cells.push_back(fmt::format("{}", line.orbit));
+    columns[1].cells.push_back(grouped(line.points));
+    columns[2].cells.push_back(fmt::format("{:.6g}", line.last_time));
+    from.push_back(fmt::format("{:+.4f}", line.from));
+    to.push_back(fmt::format("{:+.4f}", line.to));
+  }
+  columns.push_back({"v_parallel", ranges(from, to), true});
+  return fitted(columns);
+}
+
+Json section_json(const System& system, const SectionResult& result, const std::string& status,
+                  const std::string& output) {
+  Json json = Json::object();
+  add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds);
+  json.set("status", status);
+  files::add_numbers(json, result);
+  files::add_numbers<FateCounts>(json, result);
+  json.set("decisions", decisions_json(result.decisions));
+  if (results::is_integrated(system)) files::add_numbers(json, result.energy_error);
+  add_steps(json, system, result.steps);
+  add_reports(json, result.reports);
+  if (!output.empty()) json.set("archive", output);
+  return json;
+}
+
+std::string section_text(const System& system, const SectionResult& result, const OrbitLines& lines,
+                         const std::string& output, bool verbose) {
+  std::string text = doubts_of(system, result).folded_text() + heading(system);
+  text +=
+      fmt::format("{} of {}{}\n", counted(result.points, "point"), counted(result.orbits, "orbit"),
+                  result.complete ? "" : "  (interrupted: those that were finished)");
+  if (!lines.empty()) {
+    text += "\n" + lines.table();
+    if (result.orbits > lines.size())
+      text += fmt::format("  of {}\n", counted(result.orbits, "orbit"));
+  }
+  const std::string ends = fates_text(result);
+  if (result.incomplete > 0)
+    text += "\n" +
+            folded(fmt::format("{} with fewer than {} {}{}", grouped(result.incomplete),
+                               counted(system.section.points, "point"), until(system.run.t_max),
+                               ends.empty() ? "" : " (" + ends + ")")) +
+            "\n";
+  if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
+  const std::string steps = steps_text(system, result.steps);
+  text += fmt::format("\n{}{}in {:.3g} s on {}: {}\n", counted(result.collisions, "collision"),
+                      steps.empty() ? " " : "\n" + steps + "\n", result.seconds,
+                      counted(static_cast<std::uint64_t>(result.threads), "thread"),
+                      pace_text(system, {result.collisions}, result.steps, result.seconds));
+  if (verbose)
+    text += fmt::format("{}\ndigest {:016x}\n", decisions_text(result.decisions), result.digest);
+  return output.empty() ? text : text + fmt::format("archive: {}\n", output);
+}
+
+}  // namespace carom::cli

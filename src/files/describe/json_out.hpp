@@ -1,0 +1,123 @@
+// The numbers and rows of what describe() says of a result (results/describe_ends.hpp) as JSON.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "carom/base/fields.hpp"
+#include "carom/events/step_counts.hpp"
+#include "files/json.hpp"
+
+namespace carom::files {
+
+/// A number; a digest in hexadecimal digits.
+template <class T>
+Json json_of(const Label& label, const T& value) {
+  if constexpr (std::is_same_v<T, std::uint64_t>)
+    if (std::string_view(label.name) == "digest") return fmt::format("{:016x}", value);
+  return value;
+}
+
+/// Adds the fields of a struct; "energy_error.end" is the key `end` of the object energy_error.
+template <class Struct>
+void add_numbers(Json& json, const Struct& s) {
+  std::string outer;
+  Json inner;
+  const auto close = [&] {
+    if (!outer.empty()) json.set(outer, std::move(inner));
+    outer.clear();
+  };
+  each_field<Fields<Struct>>([&](const auto& one) {
+    const std::string_view name = one.label.name;
+    const std::size_t dot = name.find('.');
+    const std::string_view group = dot == name.npos ? std::string_view() : name.substr(0, dot);
+    if (group != outer) close();
+    if (group.empty()) {
+      json.set(name, json_of(one.label, one.kept(s)));
+      return;
+    }
+    if (outer.empty()) inner = Json::object();
+    outer = group;
+    inner.set(name.substr(dot + 1), one.kept(s));
+  });
+  close();
+}
+
+class JsonOut {
+ public:
+  static constexpr bool reads = false;
+  explicit JsonOut(Json& json) : json_(json) {}
+
+  void group(const char* path, const char*) { group_ = path; }
+  bool group_if(bool, const char*, const char*) { return false; }
+  bool has_if(bool, const char*) { return false; }
+  template <class T>
+  void number(const Label& label, const T& value) {
+    json_.set(label.name, json_of(label, value));
+  }
+  template <class T>
+  void number_if(bool there, const Label& label, const T& value) {
+    if (there) number(label, value);
+  }
+  template <class Struct>
+  void numbers_if(bool there, const Struct& s) {
+    // Which numbers of steps a report has depends on the plan (cli/reports/doubts.hpp).
+    if constexpr (!std::is_same_v<Struct, StepCounts>)
+      if (there) add_numbers(json_, s);
+  }
+  template <class Counts>
+  void fates(const Counts& counts, std::uint64_t) {
+    add_numbers<FateCounts>(json_, counts);
+  }
+  template <class Make>
+  void rows(Make make) {
+    Json list = Json::array();
+    for (const auto& point : make()) {
+      Json row = Json::object();
+      add_numbers(row, point);
+      list.push(std::move(row));
+    }
+    json_.set(group_, std::move(list));
+  }
+
+  template <class T>
+  void kept(const Label&, const T&) {}
+  template <class T>
+  bool kept_if(bool, const Label&, const T&) {
+    return false;
+  }
+  template <class Struct>
+  void kept_numbers(const Struct&) {}
+  template <class T>
+  void kept_all(const Label&, const T&) {}
+  template <class T>
+  void kept_column(const Label&, const T&, std::size_t) {}
+  template <class Get>
+  void kept_each(const Label&, std::size_t, Get) {}
+  template <class T, class Count>
+  void first_rows(const Label&, const T&, Count) {}
+  template <class Names>
+  void named_column(const Label&, const std::vector<std::uint64_t>&, Names) {}
+  template <class Bins>
+  void bins(const Label&, const Label&, const Bins&) {}
+  template <class Get>
+  void sums(const Label&, std::size_t, Get) {}
+  template <class Make>
+  void kept_rows(Make) {}
+  template <class Make>
+  void computed(const Label&, Make) {}
+  template <class Struct>
+  void provenance(const Struct&) {}
+
+ private:
+  Json& json_;
+  std::string group_;
+};
+
+}  // namespace carom::files

@@ -1,0 +1,180 @@
+// The part of the HDF5 C API that archives need, with owners that close what they opened.
+#pragma once
+
+#include <hdf5.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "carom/base/error.hpp"
+#include "files/hdf5/chunk_packer.hpp"
+
+namespace carom::files::hdf5 {
+
+/// An HDF5 identifier and how to close it.
+class Handle {
+ public:
+  using Closer = herr_t (*)(hid_t);
+  Handle() = default;
+  Handle(hid_t id, Closer closer) : id_(id), closer_(closer) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), closer_(other.closer_) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(closer_, other.closer_);
+    return *this;
+  }
+  ~Handle() { close(); }
+  /// False when closing failed: for a file or dataset that means lost data.
+  bool close() { return id_ < 0 || closer_(std::exchange(id_, -1)) >= 0; }
+  hid_t get() const { return id_; }
+  explicit operator bool() const { return id_ >= 0; }
+
+ private:
+  hid_t id_ = -1;
+  Closer closer_ = nullptr;
+};
+
+/// Must be called before any other use of HDF5: after a failed close its own exit handler crashes.
+/// Also ignores SIGXFSZ, so that a limit on file sizes is an error of the write, and calls
+/// silence().
+void prepare();
+
+/// Stops HDF5 from printing errors of its own in this thread (each thread has its own setting).
+void silence();
+
+/// HDF5 met a structure of the file that it cannot read. Only a writer reads some of them, such as
+/// lists of free space.
+class Damaged : public InputError {
+ public:
+  using InputError::InputError;
+};
+/// Throws InputError "cannot write FILE: reason" where `ok` is false; the reason is the system's.
+/// Where HDF5 has one of its own, it throws Damaged.
+void check(bool ok, const std::string& file);
+/// The same for identifiers.
+Handle checked(hid_t id, Handle::Closer closer, const std::string& file);
+
+/// What a dataset is: unit "1" for pure numbers.
+struct Description {
+  const char* units;
+  const char* text;
+};
+
+/// Texts are UTF-8 of variable length.
+void write_attribute(hid_t object, const char* name, std::string_view value,
+                     const std::string& file);
+void write_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file);
+void write_attribute(hid_t object, const char* name, std::uint64_t value, const std::string& file);
+void write_attribute(hid_t object, const char* name, double value, const std::string& file);
+void write_attribute(hid_t object, const char* name, const std::vector<std::string>& values,
+                     const std::string& file);
+/// A text whose place does not move when it is changed. h5py reads it as bytes.
+void write_fixed_attribute(hid_t object, const char* name, std::string_view value,
+                           const std::string& file);
+/// Overwrites the value of an existing attribute; a text of fixed length is cut or padded to it.
+void change_attribute(hid_t object, const char* name, std::string_view value,
+                      const std::string& file);
+void change_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file);
+void change_attribute(hid_t object, const char* name, double value, const std::string& file);
+std::string read_string_attribute(hid_t object, const char* name, const std::string& file);
+/// Empty if there is no such attribute.
+std::vector<std::string> read_string_list_attribute(hid_t object, const char* name,
+                                                    const std::string& file);
+std::int64_t read_integer_attribute(hid_t object, const char* name, const std::string& file);
+std::uint64_t read_count_attribute(hid_t object, const char* name, const std::string& file);
+double read_real_attribute(hid_t object, const char* name, const std::string& file);
+
+template <class T>
+hid_t native_type();
+template <>
+inline hid_t native_type<double>() {
+  return H5T_NATIVE_DOUBLE;
+}
+template <>
+inline hid_t native_type<std::int32_t>() {
+  return H5T_NATIVE_INT32;
+}
+template <>
+inline hid_t native_type<std::int64_t>() {
+  return H5T_NATIVE_INT64;
+}
+template <>
+inline hid_t native_type<std::uint8_t>() {
+  return H5T_NATIVE_UINT8;
+}
+template <>
+inline hid_t native_type<std::uint64_t>() {
+  return H5T_NATIVE_UINT64;
+}
+
+/// Is there a link of this name?
+inline bool has(hid_t group, const char* name) { return H5Lexists(group, name, H5P_DEFAULT) > 0; }
+
+/// A text as a scalar dataset.
+void write_text(hid_t parent, const char* name, std::string_view text, Description,
+                const std::string& file);
+std::string read_text(hid_t parent, const char* name, const std::string& file);
+/// A column of texts.
+void write_texts(hid_t parent, const char* name, const std::vector<std::string>& texts, Description,
+                 const std::string& file);
+std::vector<std::string> read_texts(hid_t parent, const char* name, const std::string& file);
+
+/// A single number as a scalar dataset.
+Handle create_scalar(hid_t parent, const char* name, hid_t type, Description,
+                     const std::string& file);
+template <class T>
+void write_number(hid_t parent, const char* name, T value, Description description,
+                  const std::string& file) {
+  Handle dataset = create_scalar(parent, name, native_type<T>(), description, file);
+  check(H5Dwrite(dataset.get(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &value) >= 0,
+        file);
+  check(dataset.close(), file);
+}
+
+/// A dataset of fixed size, with HDF5's own checksums (Fletcher-32): no reader gets damaged rows,
+/// but for words of zeros that became words of ones, which it takes for the same. See
+/// checksums.hpp.
+Handle create_fixed(hid_t parent, const char* name, hid_t type, std::size_t rows, Description,
+                    const std::string& file);
+/// A dataset that grows by rows, with the same. Numbers are compressed besides (shuffle, deflate).
+/// `usual`: the value of rows that are never written; 0 where it is null.
+Handle create_growing(hid_t parent, const char* name, hid_t type, std::size_t chunk, Description,
+                      const std::string& file, const void* usual = nullptr);
+std::size_t rows_of(hid_t dataset, const std::string& file);
+/// Rows that are stored together.
+std::size_t chunk_of(hid_t dataset, const std::string& file);
+std::string path_of(hid_t dataset, const std::string& file);
+/// Are the filters of a dataset shuffle, deflate and Fletcher-32?
+bool is_packed(hid_t dataset, const std::string& file);
+void extend(hid_t dataset, std::size_t rows, const std::string& file);
+void write_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, const void* values,
+                const std::string& file);
+void append_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, const void* values,
+                 const std::string& file);
+/// A whole chunk of a dataset with these filters, from its first row on, past HDF5's cache of
+/// chunks.
+void write_packed_chunk(hid_t dataset, std::size_t row, ChunkPacker::Packed packed,
+                        const std::string& file);
+
+template <class T>
+void write_column(hid_t parent, const char* name, std::span<const T> values,
+                  Description description, const std::string& file) {
+  Handle dataset = create_fixed(parent, name, native_type<T>(), values.size(), description, file);
+  check(values.empty() || H5Dwrite(dataset.get(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                                   values.data()) >= 0,
+        file);
+  check(dataset.close(), file);
+}
+template <class T>
+std::vector<T> read_column(hid_t parent, const char* name, const std::string& file);
+/// Opens a dataset of an archive that is read.
+Handle open_column(hid_t parent, const char* name, const std::string& file);
+/// Reads rows row … row + count - 1.
+void read_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, void* values,
+               const std::string& file);
+
+}  // namespace carom::files::hdf5

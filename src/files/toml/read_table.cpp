@@ -1,0 +1,188 @@
+#include <utility>
+
+#include "files/toml/points_file.hpp"
+#include "files/toml/read.hpp"
+
+namespace carom::files {
+namespace {
+
+// The order is that of the guide.
+const std::vector<std::string>& shapes() {
+  static const std::vector<std::string> names{
+      "rectangle", "polygon", "triangle", "regular", "circle", "ellipse",      "annulus", "stadium",
+      "mushroom",  "lemon",   "sinai",    "lorentz", "discs",  "random-discs", "path",    "plane"};
+  return names;
+}
+
+HoleSpec read_hole(Value& value, std::size_t index) {
+  TomlSection section(value, "table.hole");
+  section.check_keys();
+  HoleSpec hole;
+  hole.place = value.place;
+  const Value& wall = section.get("wall");
+  hole.wall = as_text(wall);
+  hole.wall_place = wall.place;
+  hole.center = as_number(section.get("center"));
+  hole.width = as_number(section.get("width"));
+  const std::string name = "hole_" + std::to_string(index + 1);
+  hole.name = as_name(section.fill("name", text_value(name, section.place_of("name"))));
+  return hole;
+}
+
+ObstacleSpec read_obstacle(Value& value, std::size_t index) {
+  using Shape = ObstacleSpec::Shape;
+  const std::string shape =
+      read_kind(value, "table.obstacle", "shape", {"circle", "ellipse", "polygon"});
+  TomlSection section(value, "table.obstacle", shape);
+  section.check_keys();
+  ObstacleSpec obstacle;
+  obstacle.place = value.place;
+  if (shape == "polygon") {
+    obstacle.shape = Shape::polygon;
+    obstacle.points = as_points(section.get("points"));
+  } else {
+    obstacle.center = as_point(section.get("center"));
+  }
+  if (shape == "circle") obstacle.radius = as_number(section.get("radius"));
+  if (shape == "ellipse") {
+    obstacle.shape = Shape::ellipse;
+    obstacle.a = as_number(section.get("a"));
+    obstacle.b = as_number(section.get("b"));
+    obstacle.angle = as_angle(section.get("angle"));
+  }
+  const std::string name = "obstacle_" + std::to_string(index + 1);
+  obstacle.name = as_name(section.fill("name", text_value(name, section.place_of("name"))));
+  return obstacle;
+}
+
+PieceSpec read_piece(Value& value) {
+  const bool line = value.find("line_to") != nullptr;
+  const bool arc = value.find("arc_to") != nullptr || value.find("arc_via") != nullptr;
+  const bool ellipse = value.find("ellipse_to") != nullptr || value.find("ellipse_via") != nullptr;
+  if (value.kind == Value::Kind::table && (line ? 1 : 0) + (arc ? 1 : 0) + (ellipse ? 1 : 0) > 1) {
+    throw InputError(value.place, "a piece is either a line or an arc or an ellipse",
+                     "one of line_to, arc_to, ellipse_to");
+  }
+  PieceSpec piece;
+  piece.place = value.place;
+  TomlSection section(value, "table.loop.pieces", ellipse ? "ellipse" : arc ? "arc" : "line");
+  section.check_keys();
+  if (const Value* name = section.find("name")) piece.name = as_name(*name);
+  if (arc) {
+    piece.kind = PieceSpec::Kind::arc;
+    piece.to = as_point(section.get("arc_to"));
+    piece.via = as_point(section.get("arc_via"));
+  } else if (ellipse) {
+    piece.kind = PieceSpec::Kind::ellipse;
+    piece.to = as_point(section.get("ellipse_to"));
+    piece.via = as_point(section.get("ellipse_via"));
+    piece.ratio = as_number(section.get("ellipse_ratio"));
+    piece.angle = as_angle(section.get("ellipse_angle"));
+  } else {
+    piece.to = as_point(section.get("line_to"));
+  }
+  return piece;
+}
+
+LoopSpec read_loop(Value& value) {
+  TomlSection section(value, "table.loop");
+  section.check_keys();
+  LoopSpec loop;
+  loop.place = value.place;
+  loop.start = as_point(section.get("start"));
+  Value& pieces = section.get("pieces");
+  as_list(pieces);
+  for (Value& piece : pieces.items) loop.pieces.push_back(read_piece(piece));
+  return loop;
+}
+
+void read_key(const KeyDescription& key, const Value& value, TableSpec& spec) {
+  const std::string name(key.key);
+  if (key.type == "list of points") {
+    spec.points[name] = as_points(value);
+  } else if (key.type == "list of numbers") {
+    spec.lists[name] = as_numbers(value);
+  } else if (key.type == "string") {
+    spec.words[name] = as_text(value);
+  } else if (key.type == "boolean") {
+    spec.torus = as_flag(value);
+  } else {
+    spec.numbers[name] = key.type == "angle" ? as_angle(value) : as_number(value);
+  }
+}
+
+void read_lattice(Value& value, TableSpec& spec) {
+  TomlSection section(value, "lattice");
+  section.check_keys();
+  const Value& vectors = section.get("vectors");
+  const std::vector<ExactPoint> points = as_points(vectors);
+  if (points.size() != 2) {
+    throw InputError(vectors.place,
+                     "a lattice has two vectors, not " + std::to_string(points.size()),
+                     "[[x, y], [x, y]]");
+  }
+  spec.lattice = LatticeSpec{points[0], points[1], vectors.place};
+}
+
+// --closed where there are no walls.
+bool takes_holes_of_nothing(const Value& root) {
+  const Value* table = root.find("table");
+  const Value* holes = table == nullptr ? nullptr : table->find("hole");
+  return holes != nullptr && table->entries.size() == 1 && holes->kind == Value::Kind::list &&
+         holes->items.empty();
+}
+
+}  // namespace
+
+TableSpec read_table(Value& root) {
+  if (takes_holes_of_nothing(root)) root.erase("table");
+  Value* table = root.find("table");
+  if (table == nullptr) {
+    // Forces may hold the particles; without forces the table was forgotten.
+    if (root.find("potential") == nullptr && root.find("interaction") == nullptr)
+      throw InputError({root.place.file, 0, 0, "table"}, "the section [table] is missing",
+                       "[table] with a shape");
+    TableSpec spec;
+    spec.shape = "plane";
+    if (Value* lattice = root.find("lattice")) read_lattice(*lattice, spec);
+    return spec;
+  }
+  TableSpec spec;
+  spec.shape = read_kind(*table, "table", "shape", shapes());
+  take_points_from_file(*table);
+  TomlSection section(*table, "table", spec.shape);
+  section.check_keys();
+  spec.place = table->place;
+  spec.shape_place = section.get("shape").place;
+  for (const KeyDescription& key : key_table()) {
+    if (key.section != "table" || !of_kind(key, spec.shape) || key.type == "list of tables")
+      continue;
+    if (key.key == "shape" || (!section.has(key.key) && key.fallback.empty())) continue;
+    const Value& value = section.get(key.key);
+    read_key(key, value, spec);
+    if (key.key == "lattice" && value.text != "triangular" && value.text != "square") {
+      throw InputError(value.place, "unknown lattice '" + value.text + "'",
+                       "\"triangular\" or \"square\"",
+                       nearest_name(value.text, {"triangular", "square"}));
+    }
+  }
+  if (Value* loops = section.find("loop")) {
+    as_list(*loops);
+    for (Value& loop : loops->items) spec.loops.push_back(read_loop(loop));
+  }
+  if (Value* obstacles = section.find("obstacle")) {
+    as_list(*obstacles);
+    for (std::size_t k = 0; k < obstacles->items.size(); ++k)
+      spec.obstacles.push_back(read_obstacle(obstacles->items[k], k));
+  }
+  if (Value* holes = section.find("hole")) {
+    as_list(*holes);
+    for (std::size_t k = 0; k < holes->items.size(); ++k) {
+      spec.holes.push_back(read_hole(holes->items[k], k));
+    }
+  }
+  if (Value* lattice = root.find("lattice")) read_lattice(*lattice, spec);
+  return spec;
+}
+
+}  // namespace carom::files

@@ -1,0 +1,66 @@
+// What describe() is, and what all ensembles have in common.
+//
+// describe(visitor, result, system) says once what a result holds: groups of archives, their
+// numbers and columns, with units and meaning. A visitor writes an archive, reads one, makes JSON
+// or the tables of the guide (files/describe/). It has
+//
+//   group(path, text), group_if(there, path, text)  what follows is in it; the latter: is it there?
+//   number(label, value), number_if(there, …)       in archives and JSON
+//   numbers(s), numbers_if(there, s)                the fields of a struct
+//   kept(label, value)                              in archives alone, as all columns below
+//   kept_column(label, values, count)               so many numbers
+//   kept_each(label, count, get)                    get(i) is a reference to the i-th
+//   sums(label, count, get)                         likewise, of exact sums
+//   rows(make), kept_rows(make)                     computed: the fields of what make() gives
+//   computed(label, make)                           likewise a number or a column, in archives
+//   alone
+//
+// `there` is what the system says; readers ask the archive instead, and never call `make`. So the
+// system may be an empty one where an archive is read.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <type_traits>
+
+#include "carom/results/ensemble_result.hpp"
+#include "carom/results/fate_counts.hpp"
+#include "carom/system/system.hpp"
+
+namespace carom::results {
+
+/// A result that is read, or one that is written.
+template <class R, class Result>
+concept OrConst = std::same_as<std::remove_const_t<R>, Result>;
+
+/// Is motion integrated anywhere?
+inline bool is_integrated(const System& system) {
+  const Dynamics& d = system.dynamics;
+  return d.everywhere || (d.forces && !d.forces->empty());
+}
+/// Do forces act, so that energies are looked at?
+inline bool has_forces(const System& system) {
+  return system.dynamics.forces && !system.dynamics.forces->empty();
+}
+
+/// What integration has cost, and how well energies were kept.
+template <class V, class Result>
+void describe_integration(V& v, Result& result, const System& system) {
+  v.numbers_if(is_integrated(system), result.energy_error);
+  v.numbers_if(is_integrated(system), result.steps);
+}
+
+/// /fates of ensembles whose particles are counted one by one.
+template <class V, class Result>
+void describe_ends(V& v, Result& result, const System& system) {
+  v.number({"trajectories", "1", "All particles of all trajectories"}, result.trajectories);
+  v.fates(result, result.trajectories);
+  v.number({"collisions", "1", "Reflections of all particles"}, result.collisions);
+  v.number_if(system.of_discs(), {"contacts", "1", "Contacts of hard discs, each pair once"},
+              result.contacts);
+  v.number({"digest", "1", "Sum of a hash of each trajectory's end: other ends, another digest"},
+           result.digest);
+  describe_integration(v, result, system);
+}
+
+}  // namespace carom::results
