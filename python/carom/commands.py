@@ -162,7 +162,7 @@ def escape(
     """
     keywords |= {"splitting": splitting, "per_trajectory": per_trajectory}
     if splitting is None:
-        return _compute(results.Escape, _carom.escape, system, "escape", keywords, progress)
+        return _compute(results.Escape, _carom.ensemble, system, "escape", keywords, progress)
     if per_trajectory:
         raise InputError(
             "per_trajectory does not go with splitting",
@@ -177,7 +177,7 @@ def diffusion(system: Systems, *, progress: Progress = None, **keywords: Any) ->
     Keywords as of `carom.escape`, and window=(from, to), the report times (time) from which D and
     the exponent are taken; free_paths=True counts the lengths of flights.
     """
-    return _compute(results.Diffusion, _carom.diffusion, system, "diffusion", keywords, progress)
+    return _compute(results.Diffusion, _carom.ensemble, system, "diffusion", keywords, progress)
 
 
 def lyapunov(
@@ -190,7 +190,7 @@ def lyapunov(
     entropy. per_trajectory: keeps start, end, exponent and SALI of each.
     """
     keywords["per_trajectory"] = per_trajectory
-    return _compute(results.Lyapunov, _carom.lyapunov, system, "lyapunov", keywords, progress)
+    return _compute(results.Lyapunov, _carom.ensemble, system, "lyapunov", keywords, progress)
 
 
 def run(
@@ -310,9 +310,9 @@ def validate(
 
 
 _KINDS: dict[str, tuple[Callable[..., results.Result], Callable[[str], Any]]] = {
-    "escape": (results.Escape, _carom.open_escape),
-    "diffusion": (results.Diffusion, _carom.open_diffusion),
-    "lyapunov": (results.Lyapunov, _carom.open_lyapunov),
+    "escape": (results.Escape, _carom.open_ensemble),
+    "diffusion": (results.Diffusion, _carom.open_ensemble),
+    "lyapunov": (results.Lyapunov, _carom.open_ensemble),
     "run": (results.Run, _carom.open_run),
     "section": (results.Section, _carom.open_section),
     "certified": (results.Certified, _carom.open_certified),

@@ -1,4 +1,4 @@
-// Escape, diffusion and Lyapunov exponents.
+// Ensembles of every kind.
 #include <pybind11/stl.h>
 
 #include <functional>
@@ -6,19 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "analyses/diffusion/report.hpp"
-#include "analyses/escape/report.hpp"
-#include "analyses/lyapunov/report.hpp"
 #include "arrays.hpp"
 #include "beside.hpp"
 #include "carom/analyses/kinds.hpp"
-#include "carom/analyses/diffusion.hpp"
-#include "carom/analyses/escape.hpp"
-#include "carom/analyses/lyapunov.hpp"
 #include "carom/files/archive.hpp"
 #include "carom/files/ensembles.hpp"
+#include "cli/commands/run_ensemble.hpp"
 #include "cli/common.hpp"
-#include "cli/reports/doubts.hpp"
+#include "cli/reports/ensemble_reports.hpp"
 #include "loaded.hpp"
 
 namespace py = pybind11;
@@ -51,31 +46,67 @@ struct ExponentRow {
   std::int8_t regularity;
 };
 template <class Result>
-using RowOf = std::conditional_t<std::is_same_v<Result, LyapunovResult>, ExponentRow, ParticleRow>;
+constexpr bool has_exponents = std::is_same_v<typename Result::RecordFields, ExponentFields>;
+
+// A result of any kind, as Python has it.
+class EnsembleOutcome {
+ public:
+  virtual ~EnsembleOutcome() = default;
+  virtual std::string json() const = 0;
+  virtual std::string text() const = 0;
+  virtual std::vector<std::string> doubts() const = 0;
+  virtual py::object trajectories() const = 0;
+  virtual void save(const std::string& file, bool force) const = 0;
+  /// Throws InputError where nothing could be measured.
+  virtual void check() const = 0;
+
+  LoadedPointer system;
+  std::string status;
+};
+using OutcomePointer = std::shared_ptr<EnsembleOutcome>;
 
 template <class Result>
-struct EnsembleOutcome {
-  LoadedPointer system;
-  Result result;
-  std::string status;
-  std::shared_ptr<std::vector<TrajectoryRecord>> records;  ///< null: not asked for
-  std::shared_ptr<const std::vector<RowOf<Result>>> rows;  ///< the same, as Python has them
+class OutcomeOf final : public EnsembleOutcome {
+ public:
+  std::string json() const override {
+    return cli::result_json(system->system(), result, {status, "", {}}).text();
+  }
+  std::string text() const override {
+    return cli::result_text(system->system(), result, {status, "", {}});
+  }
+  std::vector<std::string> doubts() const override {
+    return cli::doubts_of(system->system(), result).lines;
+  }
+  py::object trajectories() const override {
+    if (!rows_) return py::none();
+    return array_of<Row>(rows_);
+  }
+  void save(const std::string& file, bool force) const override;
+  void check() const override { cli::refuse_nothing(system->options, system->system(), result); }
 
-  void make_rows() {
-    if (!records) return;
-    auto made = std::make_shared<std::vector<RowOf<Result>>>();
-    made->reserve(records->size());
-    for (const TrajectoryRecord& r : *records) {
+  /// One row a particle, from records that are in order.
+  void keep(std::vector<TrajectoryRecord>&& records) {
+    auto made = std::make_shared<std::vector<Row>>();
+    made->reserve(records.size());
+    for (const TrajectoryRecord& r : records) {
       const auto fate = static_cast<std::int8_t>(r.fate);
-      if constexpr (std::is_same_v<Result, LyapunovResult>)
+      if constexpr (has_exponents<Result>)
         made->push_back({r.index, r.x, r.y, r.vx, r.vy, fate, r.hole, r.time, r.hits, r.wall, r.s,
                          r.v_parallel, r.lambda, r.sali, static_cast<std::int8_t>(r.regularity)});
       else
         made->push_back({r.index, r.x, r.y, r.vx, r.vy, fate, r.hole, r.time, r.hits, r.wall, r.s,
                          r.v_parallel});
     }
-    rows = std::move(made);
+    records_ = std::move(records);
+    rows_ = std::move(made);
   }
+
+  Result result;
+
+ private:
+  using Row = std::conditional_t<has_exponents<Result>, ExponentRow, ParticleRow>;
+  std::vector<TrajectoryRecord> records_;
+  std::shared_ptr<const std::vector<Row>> rows_;  ///< null: not asked for
 };
 
 const char* status_of(bool complete) { return complete ? "completed" : "interrupted"; }
@@ -84,40 +115,27 @@ const char* status_of(bool complete) { return complete ? "completed" : "interrup
 template <class Result>
 class Records : public EnsembleJournal<Result> {
  public:
-  explicit Records(std::vector<TrajectoryRecord>& all) : all_(all) {}
   bool wants_records() const override { return true; }
   void block(TrajectoryRange, std::vector<TrajectoryRecord>&& records) override {
-    all_.insert(all_.end(), records.begin(), records.end());
+    all.insert(all.end(), records.begin(), records.end());
   }
   void save(const Result&) override {}
 
- private:
-  std::vector<TrajectoryRecord>& all_;
+  std::vector<TrajectoryRecord> all;
 };
-
-EscapeResult run(const System& system, const EnsembleOptions<EscapeResult>& how) {
-  return run_escape(system, {how, {}});
-}
-DiffusionResult run(const System& system, const EnsembleOptions<DiffusionResult>& how) {
-  return run_diffusion(system, how);
-}
-LyapunovResult run(const System& system, const EnsembleOptions<LyapunovResult>& how) {
-  return run_lyapunov(system, how);
-}
 
 // The outcome, and what ended it early or None.
 template <class Result>
-py::tuple fly(const std::shared_ptr<Loaded>& loaded, const py::object& progress) {
-  EnsembleOutcome<Result> outcome{loaded, {}, {}, nullptr, nullptr};
+std::pair<OutcomePointer, std::exception_ptr> fly(const std::shared_ptr<Loaded>& loaded,
+                                                  const py::object& progress) {
+  auto outcome = std::make_shared<OutcomeOf<Result>>();
+  outcome->system = loaded;
   const System& system = loaded->system();
   EnsembleOptions<Result> how;
   how.threads = cli::threads_of(loaded->options);
   how.lanes = cli::instruction_set_of(loaded->options);
-  std::optional<Records<Result>> records;
-  if (loaded->options.per_trajectory) {
-    outcome.records = std::make_shared<std::vector<TrajectoryRecord>>();
-    how.journal = &records.emplace(*outcome.records);
-  }
+  Records<Result> records;
+  if (loaded->options.per_trajectory) how.journal = &records;
   Course course;
   how.interrupted = &course.stop;
   // A tenth of the time of short trajectories goes into telling of each.
@@ -128,84 +146,42 @@ py::tuple fly(const std::shared_ptr<Loaded>& loaded, const py::object& progress)
           static_cast<double>(trajectories) / static_cast<double>(system.run.trajectories);
     };
   const std::exception_ptr interruption =
-      run_beside(course, progress, [&] { outcome.result = run(system, how); });
-  outcome.status = status_of(outcome.result.complete);
-  if (outcome.records)
-    std::sort(outcome.records->begin(), outcome.records->end(),
-              [](const auto& a, const auto& b) { return a.index < b.index; });
-  outcome.make_rows();
-  return py::make_tuple(std::move(outcome), error_of(interruption));
+      run_beside(course, progress, [&] { outcome->result = flown(system, how); });
+  outcome->status = status_of(outcome->result.complete);
+  std::sort(records.all.begin(), records.all.end(),
+            [](const auto& a, const auto& b) { return a.index < b.index; });
+  if (how.journal) outcome->keep(std::move(records.all));
+  return {std::move(outcome), interruption};
 }
 
 template <class Result>
-void save(const EnsembleOutcome<Result>& self, const std::string& file, bool force) {
-  const auto& [loaded, options] = *self.system;
+void OutcomeOf<Result>::save(const std::string& file, bool force) const {
+  const auto& [loaded, options] = *system;
   typename EnsembleArchive<Result>::Plan plan;
   plan.force = force;
-  plan.per_trajectory = self.records != nullptr;
-  Provenance origin = cli::provenance_of(options, loaded.system, self.result.threads);
+  plan.per_trajectory = rows_ != nullptr;
+  Provenance origin = cli::provenance_of(options, loaded.system, result.threads);
   refuse_existing(file, force);
   EnsembleArchive<Result> archive(followed(file), loaded, origin, plan);
-  if (self.records)
-    archive.block({0, loaded.system.run.trajectories},
-                  std::vector<TrajectoryRecord>(*self.records));
+  if (rows_) archive.block({0, loaded.system.run.trajectories}, std::vector(records_));
   archive.mark();
-  archive.finish(self.result, self.status);
+  archive.finish(result, status);
 }
 
 template <class Result>
-EnsembleOutcome<Result> open(const std::string& file) {
+OutcomePointer open(const std::string& file) {
   Stored<Result> stored = read_ensemble<Result>(file);
   auto loaded = std::make_shared<Loaded>();
   loaded->loaded = system_of(stored);
   loaded->options.command = kind_of(stored.result);
   cli::choose_engine(stored.everywhere ? "steps" : "auto", loaded->loaded.system);
   check_stored(stored, loaded->system());
-  EnsembleOutcome<Result> outcome{loaded, std::move(stored.result), stored.status, nullptr,
-                                  nullptr};
-  if (stored.per_trajectory && stored.file == file) {
-    outcome.records =
-        std::make_shared<std::vector<TrajectoryRecord>>(read_trajectories(stored.file));
-    outcome.make_rows();
-  }
+  auto outcome = std::make_shared<OutcomeOf<Result>>();
+  outcome->system = loaded;
+  outcome->status = stored.status;
+  outcome->result = std::move(stored.result);
+  if (stored.per_trajectory && stored.file == file) outcome->keep(read_trajectories(stored.file));
   return outcome;
-}
-
-template <class Result>
-void add(py::module_& module, const char* name, const char* function) {
-  using Outcome = EnsembleOutcome<Result>;
-  py::class_<Outcome> outcome(module, name);
-  outcome
-      .def_property_readonly(
-          "system",
-          [](const Outcome& self) { return std::const_pointer_cast<Loaded>(self.system); })
-      .def("json",
-           [](const Outcome& self) {
-             return cli::result_json(self.system->system(), self.result, {self.status, "", {}})
-                 .text();
-           })
-      .def("text",
-           [](const Outcome& self) {
-             return cli::result_text(self.system->system(), self.result, {self.status, "", {}});
-           })
-      .def("doubts",
-           [](const Outcome& self) {
-             return cli::doubts_of(self.system->system(), self.result).lines;
-           })
-      .def("trajectories",
-           [](const Outcome& self) -> py::object {
-             if (!self.rows) return py::none();
-             return array_of<RowOf<Result>>(self.rows);
-           })
-      .def("save", &save<Result>, py::call_guard<py::gil_scoped_release>(), py::arg("file"),
-           py::arg("force"));
-  if constexpr (std::is_same_v<Result, LyapunovResult>)
-    outcome.def("check", [](const Outcome& self) {
-      if (const auto error = why_nothing(self.system->system(), self.result)) throw *error;
-    });
-  module.def(function, &fly<Result>, py::arg("system"), py::arg("progress"));
-  module.def((std::string("open_") + function).c_str(), &open<Result>,
-             py::call_guard<py::gil_scoped_release>(), py::arg("file"));
 }
 
 }  // namespace
@@ -219,9 +195,36 @@ void add_ensembles(py::module_& module) {
   for (int i = 0; i <= static_cast<int>(last_fate); ++i)
     fates.append(name_of(static_cast<Fate>(i)));
   module.attr("fates") = fates;
-  add<EscapeResult>(module, "EscapeOutcome", "escape");
-  add<DiffusionResult>(module, "DiffusionOutcome", "diffusion");
-  add<LyapunovResult>(module, "LyapunovOutcome", "lyapunov");
+  py::class_<EnsembleOutcome, OutcomePointer>(module, "EnsembleOutcome")
+      .def_property_readonly(
+          "system",
+          [](const EnsembleOutcome& self) { return std::const_pointer_cast<Loaded>(self.system); })
+      .def("json", &EnsembleOutcome::json)
+      .def("text", &EnsembleOutcome::text)
+      .def("doubts", &EnsembleOutcome::doubts)
+      .def("trajectories", &EnsembleOutcome::trajectories)
+      .def("check", &EnsembleOutcome::check)
+      .def("save", &EnsembleOutcome::save, py::call_guard<py::gil_scoped_release>(),
+           py::arg("file"), py::arg("force"));
+  module.def(
+      "ensemble",
+      [](const std::shared_ptr<Loaded>& loaded, const py::object& progress) {
+        std::pair<OutcomePointer, std::exception_ptr> flown;
+        for_kind(loaded->options.command, [&]<class Result>(std::type_identity<Result>) {
+          flown = fly<Result>(loaded, progress);
+        });
+        return py::make_tuple(std::move(flown.first), error_of(flown.second));
+      },
+      py::arg("system"), py::arg("progress"));
+  module.def(
+      "open_ensemble",
+      [](const std::string& file) {
+        OutcomePointer opened;
+        for_kind(kind_of_archive(file),
+                 [&]<class Result>(std::type_identity<Result>) { opened = open<Result>(file); });
+        return opened;
+      },
+      py::call_guard<py::gil_scoped_release>(), py::arg("file"));
 }
 
 }  // namespace carom::python

@@ -6,8 +6,8 @@
 
 namespace carom::analyses {
 
-void check(const StoredEnsemble&, const EscapeResult&, const System&);
-void check(const StoredEnsemble&, const DiffusionResult&, const System&);
-void check(const StoredEnsemble&, const LyapunovResult&, const System&);
+#define CAROM_DECLARE(Result) void check(const StoredEnsemble&, const Result&, const System&);
+CAROM_FOR_ENSEMBLES(CAROM_DECLARE)
+#undef CAROM_DECLARE
 
 }  // namespace carom::analyses

@@ -43,13 +43,12 @@ int end_by_closed_pipe() {
 int (*command_of(const std::string& name))(const Options&) {
   using namespace carom::cli;
   static const std::pair<const char*, int (*)(const Options&)> commands[] = {
-      {"escape", escape},   {"run", run},        {"diffusion", diffusion}, {"lyapunov", lyapunov},
-      {"section", section}, {"orbit", orbit},    {"relax", relax},         {"compare", compare},
-      {"schemes", schemes}, {"merge", merge},    {"table", table},         {"validate", validate},
-      {"plot", plot},       {"animate", animate}};
+      {"escape", escape}, {"run", run},           {"section", section}, {"orbit", orbit},
+      {"relax", relax},   {"compare", compare},   {"schemes", schemes}, {"merge", merge},
+      {"table", table},   {"validate", validate}, {"plot", plot},       {"animate", animate}};
   for (const auto& [known, command] : commands)
     if (name == known) return command;
-  return systems;
+  return carom::is_ensemble(name) ? ensemble : systems;
 }
 
 int call(const Options& options) {

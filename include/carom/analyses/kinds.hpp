@@ -1,8 +1,10 @@
 // The kinds of ensembles that can be continued, parted and merged: the only list of them.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "carom/analyses/diffusion.hpp"
 #include "carom/analyses/escape.hpp"
@@ -18,6 +20,17 @@ inline const char* kind_of(const EscapeResult&) { return "escape"; }
 inline const char* kind_of(const DiffusionResult&) { return "diffusion"; }
 inline const char* kind_of(const LyapunovResult&) { return "lyapunov"; }
 
+/// Flies an ensemble of its kind.
+inline EscapeResult flown(const System& system, const EnsembleOptions<EscapeResult>& how) {
+  return run_escape(system, {how, {}});
+}
+inline DiffusionResult flown(const System& system, const EnsembleOptions<DiffusionResult>& how) {
+  return run_diffusion(system, how);
+}
+inline LyapunovResult flown(const System& system, const EnsembleOptions<LyapunovResult>& how) {
+  return run_lyapunov(system, how);
+}
+
 /// Calls `visit` with std::type_identity of the result of that kind. False: there is no such kind.
 template <class Visit>
 bool for_kind(std::string_view kind, Visit visit) {
@@ -32,6 +45,14 @@ bool for_kind(std::string_view kind, Visit visit) {
 }
 inline bool is_ensemble(std::string_view kind) {
   return for_kind(kind, [](auto) {});
+}
+/// Their names, in the order of the list.
+inline std::vector<std::string> kinds_of_ensembles() {
+  std::vector<std::string> kinds;
+#define CAROM_NAME(Result) kinds.emplace_back(kind_of(Result()));
+  CAROM_FOR_ENSEMBLES(CAROM_NAME)
+#undef CAROM_NAME
+  return kinds;
 }
 
 }  // namespace carom

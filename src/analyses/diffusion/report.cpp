@@ -10,7 +10,7 @@
 #include "carom/engines/engine.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
-#include "cli/reports/doubts.hpp"
+#include "cli/reports/ensemble_reports.hpp"
 #include "cli/reports/starts_report.hpp"
 #include "files/describe/json_out.hpp"
 
@@ -128,6 +128,10 @@ std::string fit_text(const DiffusionSummary& summary) {
 }
 
 }  // namespace
+
+Doubts doubts_of(const System& system, const DiffusionResult& r) {
+  return doubts_of(system, r.trajectories, "particle", r, r.reports, r.energy_error);
+}
 
 DiffusionSummary summary_of(const System& system, const DiffusionResult& result) {
   const auto add = [](std::string& note, const std::string& more) {

@@ -21,7 +21,4 @@ struct DiffusionSummary {
 };
 DiffusionSummary summary_of(const System&, const DiffusionResult&);
 
-files::Json result_json(const System&, const DiffusionResult&, const EnsembleContext&);
-std::string result_text(const System&, const DiffusionResult&, const EnsembleContext&);
-
 }  // namespace carom::cli

@@ -9,12 +9,6 @@
 
 namespace carom::cli {
 
-namespace {
-
-// Each pair of a sample takes memory, and a certified orbit milliseconds at least.
-
-}  // namespace
-
 void check_escape_options(const Options& options) {
   const auto refuse = [](const std::string& given, const char* option, const char* other) {
     if (!given.empty())

@@ -1,4 +1,4 @@
-#include "analyses/escape/report.hpp"
+#include "cli/reports/ensemble_reports.hpp"
 
 #include <fmt/format.h>
 
@@ -113,6 +113,11 @@ std::string why_no_error(const SurvivalCounts& counts) {
 }
 
 }  // namespace
+
+Doubts doubts_of(const System& system, const EscapeResult& r) {
+  return doubts_of(system, r.counts.trajectories, "trajectory", r.counts, r.reports,
+                   r.energy_error);
+}
 
 Json result_json(const System& system, const EscapeResult& result, const EnsembleContext& context) {
   const SurvivalCounts& counts = result.counts;

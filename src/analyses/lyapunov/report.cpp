@@ -1,4 +1,4 @@
-#include "analyses/lyapunov/report.hpp"
+#include "cli/reports/ensemble_reports.hpp"
 
 #include <fmt/format.h>
 
@@ -306,6 +306,10 @@ std::string regularity_text(const GrowthSums& sums, const LyapunovEstimate& e) {
 }
 
 }  // namespace
+
+Doubts doubts_of(const System& system, const LyapunovResult& r) {
+  return doubts_of(system, r.trajectories, "particle", r, r.reports, r.energy_error);
+}
 
 Json result_json(const System& system, const LyapunovResult& result,
                  const EnsembleContext& context) {

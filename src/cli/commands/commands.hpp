@@ -10,10 +10,10 @@ int systems(const Options&);
 int table(const Options&);
 int run(const Options&);
 int escape(const Options&);
+/// Of any kind, by the name of the command.
+int ensemble(const Options&);
 int splitting(const Options&);
 int merge(const Options&);
-int diffusion(const Options&);
-int lyapunov(const Options&);
 int section(const Options&);
 int relax(const Options&);
 int compare(const Options&);

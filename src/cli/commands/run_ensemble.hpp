@@ -9,23 +9,16 @@
 #include <string>
 #include <utility>
 
-#include "analyses/diffusion/report.hpp"
-#include "analyses/escape/report.hpp"
-#include "analyses/lyapunov/report.hpp"
 #include "carom/analyses/kinds.hpp"
 #include "carom/base/error.hpp"
 #include "carom/files/ensembles.hpp"
 #include "cli/commands/ensemble_job.hpp"
 #include "cli/common.hpp"
 #include "cli/mpi_ranks.hpp"
-#include "cli/reports/doubts.hpp"
+#include "cli/reports/ensemble_reports.hpp"
 #include "files/progress.hpp"
 
 namespace carom::cli {
-
-/// Flies an ensemble.
-template <class Result>
-using Fly = std::function<Result(const System&, const EnsembleOptions<Result>&)>;
 
 template <class Result>
 EnsembleOptions<Result> how_to_run(const Options& options) {
@@ -121,8 +114,7 @@ int report_and_say_how_to_go_on(const Options& options, const EnsembleJob<Result
 
 // Runs the ensemble and shows the progress of this process.
 template <class Result>
-Result fly(const Options& options, const Fly<Result>& run, const System& system,
-           EnsembleOptions<Result> how) {
+Result fly(const Options& options, const System& system, EnsembleOptions<Result> how) {
   const double all = static_cast<double>(how.part.last - how.part.first);
   const std::uint64_t before = how.before ? how.before->done.size() : 0;
   files::Progress progress(!options.quiet, all > 0 ? static_cast<double>(before) / all : 0.0);
@@ -135,7 +127,7 @@ Result fly(const Options& options, const Fly<Result>& run, const System& system,
                      : files::with_prefix(static_cast<double>(trajectories) / progress.seconds()) +
                            "trajectories/s");
     };
-  return run(system, how);
+  return flown(system, how);
 }
 
 // What a whole ensemble says beyond the sum of its parts: of exponents alone.
@@ -159,7 +151,7 @@ inline void refuse_nothing(const Options& options, const System& system,
 }
 
 template <class Result>
-int run_alone(const Options& options, const Fly<Result>& run) {
+int run_alone(const Options& options) {
   check_engine(options);
   EnsembleOptions<Result> how = how_to_run<Result>(options);
   std::optional<files::Progress> preparing(std::in_place, !options.quiet);
@@ -179,7 +171,7 @@ int run_alone(const Options& options, const Fly<Result>& run) {
   how.journal = archive.get();
   Result result;
   try {
-    result = fly(options, run, job.loaded.system, how);
+    result = fly(options, job.loaded.system, how);
   } catch (...) {
     if (archive) say_how_to_go_on(options, job, archive->kept());
     throw;

@@ -42,9 +42,8 @@ void send_parts(Ranks&, const std::string& part, const std::string& first_file);
 
 // Flies this rank's share into the archive `part`.
 template <class Result>
-void fly_share(const Options& options, const Fly<Result>& run, EnsembleJob<Result>& job,
-               const Ranks& ranks, const std::string& part, const std::atomic<bool>& stopped,
-               ShareEnd& end) {
+void fly_share(const Options& options, EnsembleJob<Result>& job, const Ranks& ranks,
+               const std::string& part, const std::atomic<bool>& stopped, ShareEnd& end) {
   const System& system = job.loaded.system;
   EnsembleOptions<Result> how = how_to_run<Result>(options);
   how.interrupted = &stopped;
@@ -63,7 +62,7 @@ void fly_share(const Options& options, const Fly<Result>& run, EnsembleJob<Resul
                                   provenance_of(options, system, threads_of(options)), plan);
   how.journal = &archive;
   try {
-    Result result = fly(options, run, system, how);
+    Result result = fly(options, system, how);
     const char* const status = status_of(result.complete);
     result.complete = false;  // it is a part of the ensemble
     archive.finish(result, status);
@@ -111,7 +110,7 @@ int add_up(const Options& options, EnsembleJob<Result>& job, const Ranks& ranks,
 }
 
 template <class Result>
-int run_shared(const Options& options, const Fly<Result>& run, Ranks& ranks) {
+int run_shared(const Options& options, Ranks& ranks) {
   const bool first = ranks.rank() == 0;
   constexpr const char *go = "go", *nothing = "nothing";
   // The first rank reads everything, and claims the archive.
@@ -145,8 +144,8 @@ int run_shared(const Options& options, const Fly<Result>& run, Ranks& ranks) {
       if (job.output.empty()) temporary.emplace();
       file = temporary ? temporary->file("sum") : job.output;
       if (temporary) std::filesystem::create_directory(files::folder_of(file));
-      fly_share(options, run, job, ranks, files::part_of_rank(file, ranks.rank()),
-                meeting.stopped(), end);
+      fly_share(options, job, ranks, files::part_of_rank(file, ranks.rank()), meeting.stopped(),
+                end);
     });
     meeting.end(mine.exception != nullptr);
   }
@@ -167,9 +166,9 @@ int run_shared(const Options& options, const Fly<Result>& run, Ranks& ranks) {
 }
 
 template <class Result>
-int run_ensemble(const Options& options, const Fly<Result>& run) {
-  if (Ranks* const ranks = start_ranks()) return run_shared(options, run, *ranks);
-  return run_alone(options, run);
+int run_ensemble(const Options& options) {
+  if (Ranks* const ranks = start_ranks()) return run_shared<Result>(options, *ranks);
+  return run_alone<Result>(options);
 }
 
 }  // namespace carom::cli

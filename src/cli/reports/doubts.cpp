@@ -25,29 +25,6 @@ std::string lost_text(std::uint64_t lost, const std::string& of) {
   return fmt::format("internal error, please report it: {} {} lost", of, lost == 1 ? "is" : "are");
 }
 
-// `all`: of that many, each of them `what`.
-Doubts doubts(const System& system, std::uint64_t all, const char* what, const FateCounts& fates,
-              const Reports& reports, const EnergyError& energy) {
-  Doubts doubts{{}, fates.unresolved + fates.lost};
-  if (fates.lost > 0)
-    doubts.lines.push_back(
-        lost_text(fates.lost, fmt::format("{} of {}", grouped(fates.lost), counted(all, what))));
-  if (doubts.failed > 0 && !reports.empty()) {
-    const auto& [index, report] = reports.front();
-    const std::string others =
-        all > 1 ? fmt::format(" ({} {}, the first of {} of {} that could not be followed)", what,
-                              index, grouped(doubts.failed), grouped(all))
-                : "";
-    doubts.lines.push_back(std::string(shown(report)) + others);
-  } else if (fates.unresolved > 0) {
-    doubts.lines.push_back(fmt::format("{} of {} could not be followed", grouped(fates.unresolved),
-                                       counted(all, what)));
-  }
-  if (std::string doubt = energy_doubt(system, energy); !doubt.empty())
-    doubts.lines.push_back(std::move(doubt));
-  return doubts;
-}
-
 Reports reports_of(const SingleRunResult& r) {
   Reports reports;
   for (std::size_t p = 0; p < r.particles.size(); ++p) {
@@ -83,18 +60,31 @@ std::string energy_doubt(const System& system, const EnergyError& error) {
       is_adaptive(plan.scheme) ? "smaller tolerance" : "shorter step");
 }
 
-Doubts doubts_of(const System& system, const EscapeResult& r) {
-  return doubts(system, r.counts.trajectories, "trajectory", r.counts, r.reports, r.energy_error);
+Doubts doubts_of(const System& system, std::uint64_t all, const char* what, const FateCounts& fates,
+                 const Reports& reports, const EnergyError& energy) {
+  Doubts doubts{{}, fates.unresolved + fates.lost};
+  if (fates.lost > 0)
+    doubts.lines.push_back(
+        lost_text(fates.lost, fmt::format("{} of {}", grouped(fates.lost), counted(all, what))));
+  if (doubts.failed > 0 && !reports.empty()) {
+    const auto& [index, report] = reports.front();
+    const std::string others =
+        all > 1 ? fmt::format(" ({} {}, the first of {} of {} that could not be followed)", what,
+                              index, grouped(doubts.failed), grouped(all))
+                : "";
+    doubts.lines.push_back(std::string(shown(report)) + others);
+  } else if (fates.unresolved > 0) {
+    doubts.lines.push_back(fmt::format("{} of {} could not be followed", grouped(fates.unresolved),
+                                       counted(all, what)));
+  }
+  if (std::string doubt = energy_doubt(system, energy); !doubt.empty())
+    doubts.lines.push_back(std::move(doubt));
+  return doubts;
 }
-Doubts doubts_of(const System& system, const DiffusionResult& r) {
-  return doubts(system, r.trajectories, "particle", r, r.reports, r.energy_error);
-}
-Doubts doubts_of(const System& system, const LyapunovResult& r) {
-  return doubts(system, r.trajectories, "particle", r, r.reports, r.energy_error);
-}
+
 Doubts doubts_of(const System& system, const SectionResult& r) {
-  return doubts(system, r.orbits * system.particles.size(), "particle", r, r.reports,
-                r.energy_error);
+  return doubts_of(system, r.orbits * system.particles.size(), "particle", r, r.reports,
+                   r.energy_error);
 }
 Doubts doubts_of(const System& system, const SingleRunResult& r) {
   FateCounts fates;
@@ -103,7 +93,7 @@ Doubts doubts_of(const System& system, const SingleRunResult& r) {
     fates.count(end.progress.fate);
     energy += end.energy_error;
   }
-  return doubts(system, r.particles.size(), "particle", fates, reports_of(r), energy);
+  return doubts_of(system, r.particles.size(), "particle", fates, reports_of(r), energy);
 }
 
 Doubts doubts_of_failures(std::uint64_t unresolved, std::uint64_t lost) {

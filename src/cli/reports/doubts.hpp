@@ -7,9 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "carom/analyses/diffusion.hpp"
-#include "carom/analyses/escape.hpp"
-#include "carom/analyses/lyapunov.hpp"
 #include "carom/analyses/run.hpp"
 #include "carom/analyses/section.hpp"
 #include "files/json.hpp"
@@ -29,9 +26,9 @@ struct Doubts {
   /// The exit status of the command; `complete`: it was not interrupted.
   int status(bool complete) const;
 };
-Doubts doubts_of(const System&, const EscapeResult&);
-Doubts doubts_of(const System&, const DiffusionResult&);
-Doubts doubts_of(const System&, const LyapunovResult&);
+/// Of `all` that were followed, each of them `what`: "trajectory", "particle".
+Doubts doubts_of(const System&, std::uint64_t all, const char* what, const FateCounts&,
+                 const Reports&, const EnergyError&);
 Doubts doubts_of(const System&, const SectionResult&);
 Doubts doubts_of(const System&, const SingleRunResult&);
 /// That so many trajectories failed.

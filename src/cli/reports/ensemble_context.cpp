@@ -4,6 +4,7 @@
 
 #include "carom/engines/engine.hpp"
 #include "carom/files/ensembles.hpp"
+#include "carom/results/interval.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"

@@ -230,8 +230,9 @@ std::string kind_of_ensemble(const std::string& file) {
     return kind_of_ensemble(parts.front());
   const std::string kind = kind_in(open_ensemble(name), name);
   if (!is_ensemble(kind))
-    throw InputError(Place{name, 0, 0, ""}, "the archive does not hold an ensemble",
-                     "one written by carom escape, carom diffusion or carom lyapunov");
+    throw InputError(
+        Place{name, 0, 0, ""}, "the archive does not hold an ensemble",
+        fmt::format("one written by carom {}", fmt::join(kinds_of_ensembles(), ", carom ")));
   return kind;
 }
 

@@ -1,5 +1,5 @@
-// How survival decays that population splitting found: the laws of carom/analyses/escape/decay.hpp without
-// a plateau. docs/physics/decay.md derives the estimators and their errors.
+// How survival decays that population splitting found: the laws of carom/analyses/escape/decay.hpp
+// without a plateau. docs/physics/decay.md derives the estimators and their errors.
 #pragma once
 
 #include <optional>
