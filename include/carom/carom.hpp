@@ -85,6 +85,7 @@
 #include "carom/orbits/cycle_expansion.hpp"
 #include "carom/orbits/periodic_orbit.hpp"
 #include "carom/results/binary_bins.hpp"
+#include "carom/results/distribution.hpp"
 #include "carom/results/ensemble_result.hpp"
 #include "carom/results/estimate.hpp"
 #include "carom/results/fate_counts.hpp"

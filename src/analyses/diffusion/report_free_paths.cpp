@@ -43,7 +43,7 @@ Json distribution_json(const FreePathDistribution& d) {
                .set("exponent", estimate_json(d.tail->exponent))
                .set("amplitude", estimate_json(d.tail->amplitude));
   return Json::object()
-      .set("flights", d.flights)
+      .set("flights", d.all)
       .set("longer", d.longer)
       .set("bins", std::move(bins))
       .set("tail", std::move(tail));
@@ -94,7 +94,7 @@ std::string free_paths_text(const System& system, const DiffusionResult& result,
   const bool corridors = horizon.kind == Horizon::Kind::infinite;
   std::string text =
       fmt::format("\nFree paths between hits: {} flights, {} of {:.6g} or longer\n",
-                  grouped(paths.between.flights), grouped(paths.between.longer), paths.limit);
+                  grouped(paths.between.all), grouped(paths.between.longer), paths.limit);
   text += table_of(paths.between, context);
   if (std::isfinite(paths.mean.value))
     text += "mean " + with_error(paths.mean);
@@ -105,7 +105,7 @@ std::string free_paths_text(const System& system, const DiffusionResult& result,
   text += "\n";
   if (corridors) text += tail_text(paths.between, "l^2 times the share, over the mean,");
   text += fmt::format("\nFree paths from the start: {} flights, {} of {:.6g} or longer\n",
-                      grouped(paths.at_start.flights), grouped(paths.at_start.longer), paths.limit);
+                      grouped(paths.at_start.all), grouped(paths.at_start.longer), paths.limit);
   text += table_of(paths.at_start, context);
   if (corridors) text += tail_text(paths.at_start, "l times the share");
   return text;

@@ -162,9 +162,9 @@ TEST(FreePaths, EndInHoles) {
                20, 5000);
   const DiffusionResult result = run_diffusion(system);
   const FreePaths paths = free_paths_of(result.free_paths);
-  EXPECT_EQ(paths.at_start.flights, 5000u);
+  EXPECT_EQ(paths.at_start.all, 5000u);
   EXPECT_EQ(paths.at_start.longer, 0u);
-  EXPECT_EQ(paths.between.flights, result.collisions);
+  EXPECT_EQ(paths.between.all, result.collisions);
 }
 
 TEST(FreePaths, NeedFreeParticles) {

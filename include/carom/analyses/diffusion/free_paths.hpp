@@ -9,7 +9,7 @@
 
 #include "carom/analyses/diffusion/mean_square_displacement.hpp"
 #include "carom/base/exact_sum.hpp"
-#include "carom/results/binary_bins.hpp"
+#include "carom/results/distribution.hpp"
 
 namespace carom {
 
@@ -27,12 +27,7 @@ class FreePathSums {
  public:
   static constexpr std::size_t groups = DisplacementSums::groups;
   using Bins = BinaryBins<3>;  ///< eight to a factor of two
-
-  struct Flights {
-    Bins bins;
-    std::uint64_t longer = 0;
-    void operator+=(const Flights&);
-  };
+  using Flights = BinnedCounts;
   struct Sum {
     Flights between, at_start;
     std::uint64_t hits = 0;
@@ -57,13 +52,10 @@ class FreePathSums {
   std::vector<Sum> sums_;
 };
 
-/// Flights of from <= length < to.
-struct FreePathBin {
-  double from = 0.0, to = 0.0;
-  std::uint64_t count = 0;
-  Estimate density;  ///< share of all flights per length
-  Estimate longer;   ///< share of those that are at least `from` long
-};
+/// Of lengths.
+using FreePathBin = DistributionBin;
+using FreePathTail = DistributionTail;
+using FreePathDistribution = Distribution;
 
 template <>
 struct Fields<FreePathBin> {
@@ -86,22 +78,7 @@ struct Fields<FreePathBin> {
           [](auto& b) -> auto& { return b.longer.error; })};
 };
 
-/// Between two lengths, a factor of four apart, of which the longer one is exceeded by at least
-/// 100 flights and the shorter one is 16 mean lengths or more.
-struct FreePathTail {
-  double from = 0.0, to = 0.0;
-  Estimate exponent;  ///< a of (share of longer flights) ~ length^-a
-  /// Length times the share of longer flights from the start; of flights between hits length^2
-  /// times their share over the mean length. Where free corridors exist, both tend to flight_tail.
-  Estimate amplitude;
-};
-
-struct FreePathDistribution {
-  std::uint64_t flights = 0, longer = 0;
-  std::vector<FreePathBin> bins;  ///< the first one begins at 0
-  std::optional<FreePathTail> tail;
-};
-
+/// Where free corridors exist, both tails' amplitudes tend to flight_tail.
 struct FreePaths {
   double limit = 0.0;
   Estimate mean;  ///< length of all that was flown, over the number of hits; NaN: there are none
