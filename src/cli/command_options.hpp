@@ -140,4 +140,7 @@ class Command {
   Options& options_;
 };
 
+/// Each command with its options, which go to `options`.
+void define_commands(CLI::App&, Options& options);
+
 }  // namespace carom::cli

@@ -68,7 +68,7 @@ PACKAGES = {
     r"Random123/": r"src/base/random\.cpp",
     r"toml\+\+/|hdf5": r"src/files/",
     r"zlib|isa-l/": r"src/files/hdf5/(deflate|sums)\.cpp",
-    r"CLI/": r"src/cli/(options\.cpp|option_faults\.cpp|command_options\.hpp)",
+    r"CLI/": r"src/cli/(options\.cpp|option_faults\.cpp|command_list\.cpp|command_options\.hpp)",
     r"hwy/": r"src/lanes/simd/",
     r"pybind11|Python\.h": r"python/src/",
     r"omp\.h": r"src/engines/|src/analyses/|validation/cases/",

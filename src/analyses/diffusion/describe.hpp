@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "carom/analyses/diffusion.hpp"
+#include "results/describe_counts.hpp"
 #include "results/describe_ends.hpp"
 
 namespace carom::analyses {
@@ -53,39 +54,6 @@ void describe_moments(V& v, Sums& sums, const System& system) {
     for (std::size_t i = 0; i < count; ++i) sums.merge(i / times, i % times, read[i]);
 }
 
-// Of each group the bins that are not empty, a row each.
-template <class V, class At>
-void describe_flights(V& v, const std::string& prefix, At at) {
-  std::vector<std::uint64_t> groups, counts;
-  std::vector<double> from;
-  if constexpr (!V::reads)
-    for (std::size_t g = 0; g < FreePathSums::groups; ++g)
-      for (const auto& bin : at(g).bins.bins())
-        if (bin.count > 0) {
-          groups.push_back(g);
-          from.push_back(bin.from);
-          counts.push_back(bin.count);
-        }
-  const std::string group = prefix + "group", start = prefix + "from", count = prefix + "count",
-                    longer = prefix + "longer";
-  v.kept_all({group.c_str(), "1", "Group of trajectories (index modulo 128)"}, groups);
-  v.kept_all({start.c_str(), "length", "Start of a bin, eight to a factor of two"}, from);
-  v.kept_all({count.c_str(), "1", "Flights of the group in this bin"}, counts);
-  v.kept_each(
-      {longer.c_str(), "1", "Flights of each group beyond the limit"},
-      FreePathSums::groups, [&](std::size_t g) -> auto& { return at(g).longer; });
-  if constexpr (V::reads) {
-    v.expect(groups.size() == counts.size() && groups.size() == from.size(),
-             "has columns of different lengths");
-    for (std::size_t i = 0; i < groups.size(); ++i) {
-      v.expect(groups[i] < FreePathSums::groups && from[i] > 0.0 &&
-                   FreePathSums::Bins::bin_of(from[i]).from == from[i],
-               "has rows that are no bins");
-      at(groups[i]).bins.add(from[i], counts[i]);
-    }
-  }
-}
-
 template <class V, class Sums>
 void describe_free_paths(V& v, Sums& sums) {
   if (v.group_if(sums.counted(), "free_paths", "Lengths of flights from one hit to the next"))
@@ -111,10 +79,13 @@ void describe_free_paths(V& v, Sums& sums) {
       {"path_digits", "length",
        "Length of all that they flew, without rounding: digits as of /msd_groups"},
       FreePathSums::groups, [&](std::size_t g) -> auto& { return of(g).path; });
-  describe_flights(
-      v, "", [&](std::size_t g) -> auto& { return of(g).between; });
-  describe_flights(
-      v, "start_", [&](std::size_t g) -> auto& { return of(g).at_start; });
+  const results::CountLabels flights{"length", "Flights of the group in this bin",
+                                     "Flights of each group beyond the limit"};
+  results::describe_counts(
+      v, "", flights, FreePathSums::groups, [&](std::size_t g) -> auto& { return of(g).between; });
+  results::describe_counts(
+      v, "start_", flights,
+      FreePathSums::groups, [&](std::size_t g) -> auto& { return of(g).at_start; });
   if constexpr (V::reads) {
     sums = FreePathSums(limit);
     for (std::size_t g = 0; g < read.size(); ++g) sums.merge(g, read[g]);

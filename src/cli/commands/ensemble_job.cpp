@@ -25,6 +25,7 @@ Shard shard_of(const Options& options) {
 SystemOverrides overrides_of(const Options& options) {
   SystemOverrides overrides = options.overrides;
   overrides.window = options.window;
+  if (!options.on.empty()) overrides.set.emplace_back("section.on", options.on);
   return overrides;
 }
 

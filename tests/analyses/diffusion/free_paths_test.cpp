@@ -179,7 +179,7 @@ TEST(FreePaths, OfFewFlightsAreCounted) {
   none.add(0, {{}, {}, 0, 100.0});
   const FreePaths without = free_paths_of(none);
   EXPECT_TRUE(std::isnan(without.mean.value));
-  EXPECT_EQ(without.at_start.flights, 0u);
+  EXPECT_EQ(without.at_start.all, 0u);
   few.add(0, {{}, {0.5}, 1, 100.0});
   const FreePaths short_ones = free_paths_of(few);
   EXPECT_EQ(short_ones.mean.value, 100.0);
