@@ -22,6 +22,7 @@
 #include "carom/analyses/orbits/archive.hpp"
 #include "carom/analyses/relax.hpp"
 #include "carom/analyses/relax/archive.hpp"
+#include "carom/analyses/returns.hpp"
 #include "carom/analyses/run.hpp"
 #include "carom/analyses/run/archive.hpp"
 #include "carom/analyses/run/certified_archive.hpp"

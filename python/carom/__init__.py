@@ -19,6 +19,7 @@ from .commands import (
     open,
     orbits,
     relax,
+    returns,
     run,
     schemes,
     section,
@@ -27,6 +28,7 @@ from .commands import (
 )
 from .errors import InputError, Place
 from .records import Record
+from .return_times import Returns
 from .results import (
     Certified,
     Comparison,

@@ -11,6 +11,7 @@ import numpy
 
 from . import _carom, records, results, toml
 from .errors import InputError, path_of, text_of
+from .return_times import Returns
 from .sweep import Sweep, Swept
 from .system import System, load, system
 
@@ -193,6 +194,16 @@ def lyapunov(
     return _compute(results.Lyapunov, _carom.ensemble, system, "lyapunov", keywords, progress)
 
 
+def returns(system: Systems, *, on: str, progress: Progress = None, **keywords: Any) -> Returns:
+    """Return times to a wall, in time and in hits: a `carom.Returns`.
+
+    on: "wall:NAME". Keywords as of `carom.escape`. Excursions count that begin in the first half of
+    t_max, so that each is seen for at least half of it.
+    """
+    keywords["on"] = on
+    return _compute(Returns, _carom.ensemble, system, "returns", keywords, progress)
+
+
 def run(
     system: Systems, *, state_error: bool = True, progress: Progress = None, **keywords: Any
 ) -> Union[results.Run, results.Certified]:
@@ -313,6 +324,7 @@ _KINDS: dict[str, tuple[Callable[..., results.Result], Callable[[str], Any]]] = 
     "escape": (results.Escape, _carom.open_ensemble),
     "diffusion": (results.Diffusion, _carom.open_ensemble),
     "lyapunov": (results.Lyapunov, _carom.open_ensemble),
+    "returns": (Returns, _carom.open_ensemble),
     "run": (results.Run, _carom.open_run),
     "section": (results.Section, _carom.open_section),
     "certified": (results.Certified, _carom.open_certified),

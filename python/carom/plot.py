@@ -19,7 +19,7 @@ from .axes import title as _title
 from .axes import title_of as _title_of
 from .errors import InputError, text_of
 from .system import System
-from .transport import correlation, diffusion, free_paths
+from .transport import correlation, diffusion, free_paths, returns
 
 _WALL = "#222222"
 
@@ -446,6 +446,7 @@ def pictures(result):
     """The pictures that there are of a result or a system, by name; the first is the one that
     `result.plot()` draws."""
     from . import results
+    from .return_times import Returns
     from .sweep import Sweep
 
     if isinstance(result, results.Run):
@@ -470,6 +471,7 @@ def pictures(result):
         results.Equilibria: equilibria,
         results.Comparison: comparison,
         results.Orbits: orbits,
+        Returns: returns,
         Sweep: sweep,
     }
     draw = others.get(type(result))

@@ -1,4 +1,4 @@
-"""Pictures of diffusion: mean square displacements, correlations of the velocity, free paths."""
+"""Pictures of transport: mean square displacements, correlations of the velocity, free paths, returns."""
 
 from .axes import COLOURS, new_axes, pyplot, title, title_of
 
@@ -86,5 +86,17 @@ def free_paths(result, ax=None):
     ax.set_xlabel("l")
     ax.set_ylabel("share of flights of l or longer")
     ax.legend(fontsize="small", frameon=False)
+    title(ax, result.system)
+    return ax
+
+
+def returns(result, ax=None):
+    """The share of excursions from the wall that last t or longer."""
+    ax = new_axes(ax)
+    seen = result.return_times[(result.return_times["from"] > 0) & (result.return_times["longer"] > 0)]
+    ax.errorbar(
+        seen["from"], seen["longer"], yerr=seen["longer_stderr"], fmt="o", markersize=3, linewidth=1, color=COLOURS[0]
+    )
+    ax.set(xscale="log", yscale="log", xlabel="t", ylabel=f"share of returns to {result.wall} after t or more")
     title(ax, result.system)
     return ax

@@ -5,6 +5,7 @@
 #include "analyses/diffusion/describe.hpp"
 #include "analyses/escape/describe.hpp"
 #include "analyses/lyapunov/describe.hpp"
+#include "analyses/returns/describe.hpp"
 #include "files/describe/archive_in.hpp"
 #include "files/describe/archive_out.hpp"
 

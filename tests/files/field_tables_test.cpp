@@ -11,6 +11,7 @@
 #include "analyses/diffusion/describe.hpp"
 #include "analyses/escape/describe.hpp"
 #include "analyses/lyapunov/describe.hpp"
+#include "analyses/returns/describe.hpp"
 #include "carom/analyses/compare.hpp"
 #include "carom/analyses/kinds.hpp"
 #include "carom/analyses/relax.hpp"
@@ -61,7 +62,8 @@ std::map<std::string, std::string> tables() {
           {"runs", columns<Fields<analyses::StoredRunRow>>()},
           {"escape", described(EscapeResult())},
           {"diffusion", described(diffusion)},
-          {"lyapunov", described(lyapunov)}};
+          {"lyapunov", described(lyapunov)},
+          {"returns", described(ReturnsResult())}};
 }
 
 TEST(FieldTables, AreThoseOfTheGuide) {

@@ -9,16 +9,19 @@
 #include "carom/analyses/diffusion.hpp"
 #include "carom/analyses/escape.hpp"
 #include "carom/analyses/lyapunov.hpp"
+#include "carom/analyses/returns.hpp"
 
 namespace carom {
 
 /// Calls make(Result) for each of them, as for an explicit instantiation.
-#define CAROM_FOR_ENSEMBLES(make) make(EscapeResult) make(DiffusionResult) make(LyapunovResult)
+#define CAROM_FOR_ENSEMBLES(make) \
+  make(EscapeResult) make(DiffusionResult) make(LyapunovResult) make(ReturnsResult)
 
 /// Their names, in archives and on the command line.
 inline const char* kind_of(const EscapeResult&) { return "escape"; }
 inline const char* kind_of(const DiffusionResult&) { return "diffusion"; }
 inline const char* kind_of(const LyapunovResult&) { return "lyapunov"; }
+inline const char* kind_of(const ReturnsResult&) { return "returns"; }
 
 /// Flies an ensemble of its kind.
 inline EscapeResult flown(const System& system, const EnsembleOptions<EscapeResult>& how) {
@@ -29,6 +32,9 @@ inline DiffusionResult flown(const System& system, const EnsembleOptions<Diffusi
 }
 inline LyapunovResult flown(const System& system, const EnsembleOptions<LyapunovResult>& how) {
   return run_lyapunov(system, how);
+}
+inline ReturnsResult flown(const System& system, const EnsembleOptions<ReturnsResult>& how) {
+  return run_returns(system, how);
 }
 
 /// Calls `visit` with std::type_identity of the result of that kind. False: there is no such kind.

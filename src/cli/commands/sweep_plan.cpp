@@ -50,8 +50,8 @@ void refuse_without_use(const std::string& key, const std::string& command) {
   struct Use {
     const char *key, *commands;
   };
-  static constexpr const char* trajectories = "escape, diffusion, lyapunov, run, section";
-  static constexpr Use uses[] = {{"section.", "section"},
+  static constexpr const char* trajectories = "escape, diffusion, lyapunov, returns, run, section";
+  static constexpr Use uses[] = {{"section.", "section, returns"},
                                  {"title", ""},
                                  {"run.sample", "run"},
                                  {"run.trust_tolerance", "run"},
@@ -59,7 +59,7 @@ void refuse_without_use(const std::string& key, const std::string& command) {
                                  {"run.t_max", trajectories},
                                  {"run.collisions", trajectories},
                                  {"run.window", "escape, diffusion, lyapunov"},
-                                 {"run.trajectories", "escape, diffusion, lyapunov"}};
+                                 {"run.trajectories", "escape, diffusion, lyapunov, returns"}};
   for (const Use& use : uses)
     if (key.starts_with(use.key) && std::string(use.commands).find(command) == std::string::npos)
       throw InputError(place_of(key), fmt::format("it means nothing to carom {}", command),

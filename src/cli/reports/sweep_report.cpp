@@ -66,6 +66,10 @@ const std::vector<Shown>& shown_of(const std::string& command) {
       {"entropy", {{"entropy", "entropy.value", "entropy.stderr"}}},
       {"lambda a hit", {{"per_collision", "per_collision.0.value", "per_collision.0.stderr"}}},
       {"chaotic share", {{"chaotic_share", "chaotic_share.value", "chaotic_share.stderr"}}}};
+  static const std::vector<Shown> returns{
+      {"mean time", {{"mean_time", "mean_time.value", "mean_time.stderr"}}},
+      {"mean hits", {{"mean_hits", "mean_hits.value", "mean_hits.stderr"}}},
+      {"tail", {{"exponent", "tail.exponent.value", "tail.exponent.stderr"}}}};
   static const std::vector<Shown> relax{
       {"lowest energy", {{"energy", "equilibria.0.energy", "", "", "", 10}}},
       {"it is a", {{"kind", "equilibria.0.kind"}}},
@@ -82,8 +86,9 @@ const std::vector<Shown>& shown_of(const std::string& command) {
       {"evaluations", {{"force_evaluations", "cheapest.force_evaluations"}}},
       {"compared at t", {{"t", "t"}}}};
   static const std::vector<std::pair<std::string, const std::vector<Shown>*>> all{
-      {"escape", &escape},     {"diffusion", &diffusion}, {"run", &run},     {"section", &section},
-      {"lyapunov", &lyapunov}, {"relax", &relax},         {"orbit", &orbit}, {"compare", &compare}};
+      {"escape", &escape},   {"diffusion", &diffusion}, {"run", &run},
+      {"section", &section}, {"lyapunov", &lyapunov},   {"relax", &relax},
+      {"orbit", &orbit},     {"compare", &compare},     {"returns", &returns}};
   for (const auto& [name, shown] : all)
     if (name == command) return *shown;
   throw InternalError("no table for a sweep of " + command);

@@ -1,0 +1,22 @@
+"""Return times to a wall."""
+
+from ._carom import counted
+from .results import Result
+
+
+class Returns(Result):
+    """Return times to a wall.
+
+    excursions; half (time): of the run, in which they begin; mean_time (value, stderr: time) and
+    mean_hits, expected_time and expected_hits by Kac's lemma (None where it does not say), tail and
+    tail_hits (from, to, exponent: value, stderr; None: too few long ones). Arrays:
+
+    return_times  (number of bins,): from, to (time), count, density (1/time), longer (share) …
+    return_hits   (number of bins,): from, to, count, longer: by hits, the last one counted
+    """
+
+    def _summary(self):
+        return f"{counted(self.excursions, 'excursion')} from {self.wall}, mean time {self.mean_time!r}"
+
+    def _main(self):
+        return self.return_times

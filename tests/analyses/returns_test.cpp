@@ -1,0 +1,85 @@
+// Return times to a wall: Kac's lemma, a closed case, parts that add up, archives.
+#include "carom/analyses/returns.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "carom/base/error.hpp"
+#include "carom/files/ensembles.hpp"
+#include "carom/files/system_file.hpp"
+#include "scratch_folder.hpp"
+
+namespace carom {
+namespace {
+
+LoadedSystem loaded(const std::string& name, const std::string& wall, double t_max,
+                    std::uint64_t trajectories) {
+  SystemOverrides overrides;
+  overrides.set = {{"table.hole", "[]"}, {"section.on", "wall:" + wall}};
+  overrides.t_max = std::to_string(t_max);
+  overrides.trajectories = std::to_string(trajectories);
+  return load_system(name, overrides);
+}
+
+TEST(Returns, MeansAreThoseOfKacsLemma) {
+  for (const auto& [name, wall] :
+       {std::pair("stadium", "bottom"), std::pair("stadium", "right"),
+        std::pair("magnetic-square", "left"), std::pair("mushroom", "cap")}) {
+    const System system = loaded(name, wall, 200, 2000).system;
+    const Returns returns = returns_of(run_returns(system).sums, 100);
+    const auto expected = expected_returns(system);
+    ASSERT_TRUE(expected) << name;
+    EXPECT_LT(std::fabs(returns.mean_time.value - expected->time), 4 * returns.mean_time.error)
+        << name << ' ' << wall;
+    EXPECT_LT(std::fabs(returns.mean_hits.value - expected->hits), 4 * returns.mean_hits.error)
+        << name << ' ' << wall;
+  }
+}
+
+// In a circle every flight of an orbit has the same length 2 cos(a): times to the whole wall are
+// chords, with the density d/2 / sqrt(4 - d^2) of the cosine law.
+TEST(Returns, ChordsOfACircleHaveTheirLaw) {
+  const System system = loaded("circle", "circle", 400, 4000).system;
+  const Returns returns = returns_of(run_returns(system).sums, 200);
+  for (const DistributionBin& bin : returns.times.bins) {
+    const double expected = std::sqrt(1 - bin.from * bin.from / 4);
+    EXPECT_LT(std::fabs(bin.longer.value - expected), 4.5 * bin.longer.error + 1e-12) << bin.from;
+  }
+  EXPECT_EQ(returns.mean_hits.value, 1.0);
+}
+
+TEST(Returns, PartsAddUpAndArchivesReadBack) {
+  const LoadedSystem whole = loaded("stadium", "top", 50, 500);
+  EnsembleOptions<ReturnsResult> first, second;
+  first.part = {0, 123};
+  second.part = {123, 500};
+  const ReturnsResult all = run_returns(whole.system);
+  ReturnsResult sum = run_returns(whole.system, first);
+  ASSERT_TRUE(sum.add(run_returns(whole.system, second)));
+  EXPECT_EQ(sum.digest, all.digest);
+  const ScratchFolder folder;
+  const std::string file = folder.file("returns.h5");
+  EnsembleArchive<ReturnsResult>(file, whole, {}, {}).finish(sum, "completed");
+  const Stored<ReturnsResult> stored = read_ensemble<ReturnsResult>(file);
+  check_stored(stored, whole.system);
+  const Returns a = returns_of(all.sums, 25), b = returns_of(stored.result.sums, 25);
+  EXPECT_EQ(a.excursions, b.excursions);
+  EXPECT_EQ(a.mean_hits.value, b.mean_hits.value);
+  ASSERT_EQ(a.hits.bins.size(), b.hits.bins.size());
+  for (std::size_t i = 0; i < a.hits.bins.size(); ++i)
+    EXPECT_EQ(a.hits.bins[i].count, b.hits.bins[i].count);
+}
+
+TEST(Returns, WhatCannotReturnIsRefused) {
+  System open = loaded("stadium", "top", 50, 10).system;
+  open.section.wall = -1;
+  EXPECT_THROW(run_returns(open), InputError);
+  SystemOverrides overrides;
+  overrides.set = {{"section.on", "wall:top"}};
+  EXPECT_THROW(run_returns(load_system("stadium", overrides).system), InputError);
+}
+
+}  // namespace
+}  // namespace carom
