@@ -73,11 +73,8 @@ int main(int argc, char** argv) {
   using namespace carom::cli;
   reserve_standard_streams();
   try {
-    // Only the first of the processes that mpirun starts prints.
     const bool silent = rank_by_environment() > 0;
-    if (silent &&
-        (!std::freopen("/dev/null", "w", stdout) || !std::freopen("/dev/null", "w", stderr)))
-      return bad_input;
+    if (silent && !keep_silent()) return bad_input;
     std::signal(SIGPIPE, SIG_IGN);  // a closed pipe shows where it is written to
     carom::prepare_archives();
     Parsed parsed = parse(argc, argv);

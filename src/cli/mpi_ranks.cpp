@@ -1,25 +1,27 @@
 #include "cli/mpi_ranks.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
-#include <chrono>
+#include <cstdio>
 #include <cstdlib>
-#include <utility>
 
 #include "carom/base/error.hpp"
 
 #ifdef CAROM_MPI
 #include <mpi.h>
 
-#include <algorithm>
+#include <chrono>
 #include <cstddef>
-#include <cstdint>
-#include <stdexcept>
+#include <thread>
 #endif
 
 namespace carom::cli {
 
 namespace {
+
+int real_errors = -1;  // standard error of a process that keeps silent
 
 // The rank that Open MPI, PMIx (srun) or MPICH gave this process; null if none of them started it.
 const char* rank_in_environment() {
@@ -47,83 +49,43 @@ void refuse_strangers(int known) {
 class MpiRanks : public Ranks {
  public:
   MpiRanks() {
-    int provided = 0;
-    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
-    if (provided < MPI_THREAD_SERIALIZED)
-      throw std::runtime_error("this MPI is not made for threads");
+    MPI_Init(nullptr, nullptr);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
     refuse_strangers(size_);
   }
-  ~MpiRanks() override { MPI_Finalize(); }
+  // MPI_Abort would lose what was said. mpirun ends the others where one has ended with an error.
+  ~MpiRanks() override {
+    if (gives_up_) std::fflush(nullptr), ::_exit(1);
+    MPI_Finalize();
+  }
   int rank() const override { return rank_; }
   int size() const override { return size_; }
-  // If memory runs out here the process ends, and mpirun ends the others.
-  Vote vote(Vote mine) noexcept override {
-    constexpr int not_done = 1, stop = 2;
-    const int own = (mine.done ? 0 : not_done) | (mine.stop ? stop : 0);
-    int all = 0;
-    MPI_Request request;
-    MPI_Iallreduce(&own, &all, 1, MPI_INT, MPI_BOR, MPI_COMM_WORLD, &request);
-    wait(request);
-    return {(all & not_done) == 0, (all & stop) != 0};
-  }
+  // If memory runs out in one of these the process ends, and mpirun ends the others.
   std::string tell(const std::string& text) noexcept override {
-    std::uint64_t size = text.size();
-    MPI_Request request;
-    MPI_Ibcast(&size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD, &request);
-    wait(request);
-    std::string said = rank_ == 0 ? text : std::string(size, '\0');
-    MPI_Ibcast(said.data(), static_cast<int>(said.size()), MPI_BYTE, 0, MPI_COMM_WORLD, &request);
-    wait(request);
+    meet();
+    int size = static_cast<int>(text.size());
+    MPI_Bcast(&size, 1, MPI_INT, 0, MPI_COMM_WORLD);
+    std::string said = text;
+    said.resize(static_cast<std::size_t>(size));
+    MPI_Bcast(said.data(), size, MPI_CHAR, 0, MPI_COMM_WORLD);
     return said;
   }
-  void gather(const std::string& text,
-              const std::function<void(int, const std::string&)>& take) noexcept override {
-    if (rank_ == 0) {
-      take(0, text);
-      for (int from = 1; from < size_; ++from) take(from, receive(from));
-      return;
-    }
-    std::uint64_t size = text.size();
-    MPI_Request request;
-    MPI_Isend(&size, 1, MPI_UINT64_T, 0, 0, MPI_COMM_WORLD, &request);
-    wait(request);
-    for (std::size_t at = 0; at < text.size(); at += most) {
-      MPI_Isend(text.data() + at, length(text.size() - at), MPI_BYTE, 0, 0, MPI_COMM_WORLD,
-                &request);
-      wait(request);
-    }
-  }
-
- private:
-  // Long texts go in pieces.
-  static constexpr std::size_t most = std::size_t{1} << 30;
-  static int length(std::size_t left) { return static_cast<int>(std::min(most, left)); }
-  std::string receive(int from) {
-    std::uint64_t size = 0;
-    MPI_Request request;
-    MPI_Irecv(&size, 1, MPI_UINT64_T, from, 0, MPI_COMM_WORLD, &request);
-    wait(request);
-    std::string text(size, '\0');
-    for (std::size_t at = 0; at < text.size(); at += most) {
-      MPI_Irecv(text.data() + at, length(text.size() - at), MPI_BYTE, from, 0, MPI_COMM_WORLD,
-                &request);
-      wait(request);
-    }
-    return text;
-  }
   // MPI's own waiting takes a whole processor, and others compute.
-  static void wait(MPI_Request& request) {
-    for (;;) {
-      int over = 0;
-      MPI_Test(&request, &over, MPI_STATUS_IGNORE);
-      if (over) return;
+  void meet() noexcept override {
+    MPI_Request request;
+    MPI_Ibarrier(MPI_COMM_WORLD, &request);
+    for (int all = 0;;) {
+      MPI_Test(&request, &all, MPI_STATUS_IGNORE);
+      if (all) return;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   }
+  void give_up() override { gives_up_ = true; }
 
+ private:
   int rank_ = 0, size_ = 1;
+  bool gives_up_ = false;
 };
 
 #endif
@@ -133,6 +95,15 @@ class MpiRanks : public Ranks {
 int rank_by_environment() {
   const char* text = rank_in_environment();
   return text ? std::atoi(text) : 0;
+}
+
+bool keep_silent() {
+  real_errors = ::fcntl(2, F_DUPFD_CLOEXEC, 3);
+  return std::freopen("/dev/null", "w", stdout) && std::freopen("/dev/null", "w", stderr);
+}
+
+void speak() {
+  if (real_errors >= 0) ::dup2(real_errors, 2);
 }
 
 Ranks* start_ranks() {
@@ -145,26 +116,6 @@ Ranks* start_ranks() {
 #endif
   refuse_strangers(1);
   return nullptr;
-}
-
-void Meeting::end(bool failed) {
-  if (std::exchange(over_, true)) return;
-  if (failed) stopped_ = true;
-  done_ = true;
-  if (thread_.joinable())
-    thread_.join();
-  else
-    vote_until_all_are_done();
-}
-
-void Meeting::vote_until_all_are_done() {
-  constexpr auto pause = std::chrono::milliseconds(20);
-  for (;;) {
-    const Ranks::Vote all = ranks_.vote({done_, stopped_ || interrupted_});
-    if (all.stop) stopped_ = true;
-    if (all.done) return;
-    std::this_thread::sleep_for(pause);
-  }
 }
 
 }  // namespace carom::cli

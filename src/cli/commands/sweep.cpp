@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <exception>
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -243,11 +245,14 @@ int Sweep::finish(int status) {
 
 int Sweep::run() {
   constexpr const char *go = "go", *nothing = "nothing", *failed = "failed";
-  const ShareEnd ready = share_end_of([&](ShareEnd&) {
+  std::exception_ptr problem;
+  try {
     if (first()) prepare();
-  });
-  const std::string word = tell(ready.exception ? failed : complete_ ? nothing : go);
-  if (ready.exception) std::rethrow_exception(ready.exception);
+  } catch (...) {
+    problem = std::current_exception();
+  }
+  const std::string word = tell(problem ? failed : complete_ ? nothing : go);
+  if (problem) std::rethrow_exception(problem);
   if (word == failed) return bad_input;
   if (word == nothing) return first() ? show_stored() : done;
   if (ranks_) {
