@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstdint>
-#include <fstream>
-#include <iterator>
+#include <cstdio>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,7 +20,7 @@ using hdf5::Handle;
 
 namespace {
 
-constexpr const char *report_name = "report", *archive_name = "archive";
+constexpr const char* report_name = "report";
 
 Handle opened(const std::string& file) {
   hdf5::silence();
@@ -53,34 +51,79 @@ void write_table(const ArchiveFile& file, const SweepPlan& plan,
                        {"as in the report", column.description.c_str()}, name);
 }
 
-std::vector<std::uint8_t> bytes_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
-  hdf5::check(in.good(), file);
-  return bytes;
+// HDF5's own copy of a group with many attributes that are texts of variable length crashes (1.10):
+// attributes go one by one.
+void copy_attributes(hid_t from, hid_t to, const std::string& name) {
+  const int count = H5Aget_num_attrs(from);
+  for (int i = 0; i < count; ++i) {
+    const Handle attribute(H5Aopen_by_idx(from, ".", H5_INDEX_NAME, H5_ITER_INC,
+                                          static_cast<hsize_t>(i), H5P_DEFAULT, H5P_DEFAULT),
+                           H5Aclose);
+    hdf5::check(bool(attribute), name);
+    const Handle type(H5Aget_type(attribute.get()), H5Tclose),
+        space(H5Aget_space(attribute.get()), H5Sclose);
+    const auto points = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.get()));
+    std::vector<char> key(static_cast<std::size_t>(H5Aget_name(attribute.get(), 0, nullptr)) + 1),
+        value(points * H5Tget_size(type.get()));
+    H5Aget_name(attribute.get(), key.size(), key.data());
+    if (H5Aexists(to, key.data()) > 0) H5Adelete(to, key.data());
+    const Handle copy(H5Acreate2(to, key.data(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT),
+                      H5Aclose);
+    hdf5::check(copy && H5Aread(attribute.get(), type.get(), value.data()) >= 0 &&
+                    H5Awrite(copy.get(), type.get(), value.data()) >= 0,
+                name);
+    if (H5Tis_variable_str(type.get()) > 0)
+      H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, value.data());
+  }
+}
+
+// All of an archive as a group of another file, or such a group as an archive: attributes, and
+// below /provenance, the only group that has many, attributes alone.
+void copy_archive(hid_t from, hid_t to, const std::string& name) {
+  copy_attributes(from, to, name);
+  H5G_info_t info;
+  hdf5::check(H5Gget_info(from, &info) >= 0, name);
+  for (hsize_t i = 0; i < info.nlinks; ++i) {
+    std::vector<char> link(256);
+    const ssize_t length = H5Lget_name_by_idx(from, ".", H5_INDEX_NAME, H5_ITER_INC, i, link.data(),
+                                              link.size(), H5P_DEFAULT);
+    hdf5::check(length > 0 && static_cast<std::size_t>(length) < link.size(), name);
+    if (std::string_view(link.data()) == report_name) continue;  // the sweep's own
+    if (std::string_view(link.data()) != "provenance") {
+      hdf5::check(H5Ocopy(from, link.data(), to, link.data(), H5P_DEFAULT, H5P_DEFAULT) >= 0, name);
+      continue;
+    }
+    const Handle source = open_group(from, "provenance", name);
+    const Handle target(H5Gcreate2(to, "provenance", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                        H5Gclose);
+    hdf5::check(bool(target), name);
+    copy_attributes(source.get(), target.get(), name);
+  }
 }
 
 void write_value(const ArchiveFile& file, const SweepPlan& plan, std::size_t index) {
   const std::string &name = file.name(), path = path_of(index);
-  const Handle group = file.group(path.c_str(), "A value: its report, its archive");
+  const Handle group = file.group(path.c_str(), "A value: its archive, and its report");
   if (const auto report = kept_report(name, plan, index))
     hdf5::write_text(group.get(), report_name, *report,
                      {"JSON", "What the command prints of it with --json"}, name);
   const std::string archive = value_of_sweep(name, index);
   if (!exists(archive)) return;
-  // Its bytes: H5Ocopy of HDF5 1.10 crashes on texts of variable length among many attributes.
-  const std::vector<std::uint8_t> bytes = bytes_of(archive);
-  hdf5::write_column(group.get(), archive_name, std::span<const std::uint8_t>(bytes),
-                     {"bytes", "The archive that this value alone would have"}, name);
+  const Handle from = opened(archive);
+  copy_archive(open_group(from.get(), "/", archive).get(), group.get(), archive);
 }
 
 bool extract(hid_t file, const std::string& name, std::size_t index, const std::string& target) {
   const Handle value = open_group(file, path_of(index).c_str(), name);
-  if (!hdf5::has(value.get(), archive_name)) return false;
-  const auto bytes = hdf5::read_column<std::uint8_t>(value.get(), archive_name, name);
-  errno = 0;
-  hdf5::check(write_new_file(target, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}),
-              target);
+  if (!hdf5::has(value.get(), "provenance")) return false;
+  std::remove(target.c_str());
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_libver_bounds(access.get(), H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
+  const Handle made(H5Fcreate(target.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, access.get()), H5Fclose);
+  hdf5::check(bool(made), target);
+  const Handle root = open_group(made.get(), "/", target);
+  copy_archive(value.get(), root.get(), name);
+  H5Adelete(root.get(), "description");  // the sweep's own
   return true;
 }
 
