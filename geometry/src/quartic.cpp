@@ -240,12 +240,12 @@ RisingRoots rising_roots(const Quartic<double>& f, const QuarticError& error, in
 }
 
 QuarticError quartic_error(const FlightScale& f, double e1, double centre_error, double row,
-                           bool stands) {
+                           bool on_wall) {
   const double eta = row * (f.delta + centre_error + 7.1 * u * e1);
   const double m = 2.01 * row * e1, n1 = 2.01 * row * f.speed_1;
   const double nu = 6.1 * u * row * f.speed_1;
-  const double h_size = stands ? 0.0 : m * m + 1.0;
-  const double h = stands ? 0.0 : 2.01 * m * eta + 2.01 * eta * eta + 3.1 * u * h_size;
+  const double h_size = on_wall ? 0.0 : m * m + 1.0;
+  const double h = on_wall ? 0.0 : 2.01 * m * eta + 2.01 * eta * eta + 3.1 * u * h_size;
   const double ev = m * nu + n1 * eta + 2.01 * nu * eta + 2.1 * u * m * n1;
   const double vv = 2.01 * n1 * nu + 2.01 * nu * nu + 2.1 * u * n1 * n1;
   const double n = 0.2501 * f.omega * f.omega;

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "analyses/run/command_certified.hpp"
-#include "beside.hpp"
 #include "carom/analyses/run/certified_archive.hpp"
 #include "carom/base/error.hpp"
 #include "carom/base/stopwatch.hpp"
 #include "carom/certify/certified_orbit.hpp"
 #include "cli/common.hpp"
 #include "loaded.hpp"
+#include "run_in_background.hpp"
 
 namespace py = pybind11;
 
@@ -35,7 +35,7 @@ py::tuple run(const std::shared_ptr<Loaded>& loaded, const py::object& progress)
   CertifiedOutcome outcome;
   outcome.system = std::make_shared<Loaded>(*loaded);  // its start is drawn
   Course course;
-  const std::exception_ptr interruption = run_beside(course, progress, [&] {
+  const std::exception_ptr interruption = run_in_background(course, progress, [&] {
     const Stopwatch watch;
     outcome.task = cli::certified_task(loaded->options, outcome.system->loaded);
     CertifiedOrbit orbit(outcome.system->loaded.exact, outcome.task,

@@ -7,12 +7,12 @@
 
 #include "analyses/compare/command.hpp"
 #include "analyses/compare/report.hpp"
-#include "beside.hpp"
 #include "carom/analyses/compare/archive.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/scheme_report.hpp"
 #include "loaded.hpp"
+#include "run_in_background.hpp"
 
 namespace py = pybind11;
 
@@ -35,7 +35,7 @@ py::tuple compare(const std::shared_ptr<Loaded>& loaded, const py::object& progr
     course.done = done;
     course.share = static_cast<double>(done) / static_cast<double>(all);
   };
-  const std::exception_ptr interruption = run_beside(
+  const std::exception_ptr interruption = run_in_background(
       course, progress, [&] { outcome.result = carom::compare(loaded->system(), plan); });
   return py::make_tuple(std::move(outcome), error_of(interruption));
 }

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "arrays.hpp"
-#include "beside.hpp"
 #include "carom/analyses/kinds.hpp"
 #include "carom/files/archive.hpp"
 #include "carom/files/ensembles.hpp"
@@ -15,6 +14,7 @@
 #include "cli/common.hpp"
 #include "cli/reports/ensemble_reports.hpp"
 #include "loaded.hpp"
+#include "run_in_background.hpp"
 
 namespace py = pybind11;
 
@@ -146,7 +146,7 @@ std::pair<OutcomePointer, std::exception_ptr> fly(const std::shared_ptr<Loaded>&
           static_cast<double>(trajectories) / static_cast<double>(system.run.trajectories);
     };
   const std::exception_ptr interruption =
-      run_beside(course, progress, [&] { outcome->result = flown(system, how); });
+      run_in_background(course, progress, [&] { outcome->result = flown(system, how); });
   outcome->status = status_of(outcome->result.complete);
   std::sort(records.all.begin(), records.all.end(),
             [](const auto& a, const auto& b) { return a.index < b.index; });

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "analyses/relax/report.hpp"
-#include "beside.hpp"
 #include "carom/analyses/relax/archive.hpp"
 #include "cli/common.hpp"
 #include "loaded.hpp"
+#include "run_in_background.hpp"
 
 namespace py = pybind11;
 
@@ -31,8 +31,8 @@ py::tuple relax(const std::shared_ptr<Loaded>& loaded, const py::object& progres
     course.done = done;
     course.share = static_cast<double>(done) / static_cast<double>(how.starts);
   };
-  const std::exception_ptr interruption =
-      run_beside(course, progress, [&] { outcome.result = run_relax(loaded->system(), how); });
+  const std::exception_ptr interruption = run_in_background(
+      course, progress, [&] { outcome.result = run_relax(loaded->system(), how); });
   return py::make_tuple(std::move(outcome), error_of(interruption));
 }
 

@@ -8,11 +8,11 @@
 
 #include "analyses/orbits/command.hpp"
 #include "analyses/orbits/report.hpp"
-#include "beside.hpp"
 #include "carom/analyses/orbits/archive.hpp"
 #include "carom/files/archive.hpp"
 #include "cli/common.hpp"
 #include "loaded.hpp"
+#include "run_in_background.hpp"
 
 namespace py = pybind11;
 
@@ -42,7 +42,7 @@ py::tuple orbits(const std::shared_ptr<Loaded>& loaded, const py::object& progre
     course.done = tried;
     course.share = static_cast<double>(tried) / static_cast<double>(all);
   };
-  const std::exception_ptr interruption = run_beside(course, progress, [&] {
+  const std::exception_ptr interruption = run_in_background(course, progress, [&] {
     cli::digits_of_orbits(loaded->options, *loaded->system().table);  // refused at once
     outcome.result = find_orbits(loaded->system(), how);
     outcome.proofs =

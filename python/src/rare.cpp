@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "analyses/splitting/command.hpp"
-#include "beside.hpp"
 #include "carom/analyses/splitting.hpp"
 #include "cli/common.hpp"
 #include "loaded.hpp"
+#include "run_in_background.hpp"
 
 namespace py = pybind11;
 
@@ -33,7 +33,7 @@ py::tuple split(const std::shared_ptr<Loaded>& loaded, const py::object& progres
     course.done = done;
     course.share = static_cast<double>(done) / static_cast<double>(all);
   };
-  const std::exception_ptr interruption = run_beside(
+  const std::exception_ptr interruption = run_in_background(
       course, progress, [&] { outcome.result = run_splitting(loaded->system(), plan, how); });
   // Without a population of each kick there is nothing to report.
   if (interruption && (outcome.result.runs.empty() || outcome.result.runs.back().empty() ||

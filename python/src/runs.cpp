@@ -13,7 +13,6 @@
 #include "analyses/run/stored_run.hpp"
 #include "analyses/section/report.hpp"
 #include "arrays.hpp"
-#include "beside.hpp"
 #include "carom/analyses/run.hpp"
 #include "carom/analyses/run/archive.hpp"
 #include "carom/analyses/run/rows.hpp"
@@ -28,6 +27,7 @@
 #include "cli/common.hpp"
 #include "cli/reports/doubts.hpp"
 #include "loaded.hpp"
+#include "run_in_background.hpp"
 
 namespace py = pybind11;
 
@@ -156,7 +156,7 @@ py::tuple run(const std::shared_ptr<Loaded>& loaded, bool state_error, const py:
   how.trajectory = outcome.trajectory;
   how.estimate_state_error = state_error;
   how.interrupted = [&] { return course.stop.load(std::memory_order_relaxed); };
-  const std::exception_ptr interruption = run_beside(course, progress, [&] {
+  const std::exception_ptr interruption = run_in_background(course, progress, [&] {
     if (estimates_trust(system)) how.written = written_system(loaded->loaded);
     how.started = [&](const World& world) { outcome.starts = start_rows(world, *system.table); };
     outcome.result = run_single(system, recording, how);
@@ -173,7 +173,7 @@ py::tuple run(const std::shared_ptr<Loaded>& loaded, bool state_error, const py:
 // Ctrl-C leaves no file.
 void save(const RunOutcome& self, const std::string& file, bool force) {
   Course course;
-  const std::exception_ptr interruption = run_beside(course, py::none(), [&] {
+  const std::exception_ptr interruption = run_in_background(course, py::none(), [&] {
     const LoadedSystem& loaded = self.system->loaded;
     const auto archive = RunArchive::create(
         followed(file), loaded, cli::provenance_of(self.system->options, loaded.system, 1), force,
@@ -266,7 +266,7 @@ py::tuple section(const std::shared_ptr<Loaded>& loaded, const py::object& progr
     course.share = static_cast<double>(orbits) / all;
   };
   const std::exception_ptr interruption =
-      run_beside(course, progress, [&] { outcome.result = run_section(system, how); });
+      run_in_background(course, progress, [&] { outcome.result = run_section(system, how); });
   return py::make_tuple(std::move(outcome), error_of(interruption));
 }
 

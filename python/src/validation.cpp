@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "beside.hpp"
 #include "carom/files/ensembles.hpp"
 #include "cli/commands/validate.hpp"
 #include "cli/common.hpp"
 #include "loaded.hpp"
+#include "run_in_background.hpp"
 
 namespace py = pybind11;
 
@@ -43,7 +43,7 @@ py::tuple validate(bool soak, const std::string& scale, const std::string& threa
   Course course;
   how.interrupted = &course.stop;
   cli::Validation all;
-  const std::exception_ptr interruption = run_beside(course, progress, [&] {
+  const std::exception_ptr interruption = run_in_background(course, progress, [&] {
     all = cli::run_validation(
         options, how, [&](double share, const std::string&) { course.share = share; },
         [&](const auto&) { ++course.done; });

@@ -8,8 +8,8 @@
 
 #include "carom/certify/certified_orbit.hpp"
 #include "certify/enclosure/line_table.hpp"
-#include "certify/enclosure/pilot.hpp"
 #include "certify/enclosure/state_enclosure.hpp"
+#include "certify/enclosure/trial_run.hpp"
 #include "certify/tie.hpp"
 
 namespace carom::certify {

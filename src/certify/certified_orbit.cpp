@@ -203,8 +203,8 @@ class CertifiedOrbit::Implementation {
     return static_cast<long>(lacks + rest + margin(rest > 0.0 ? forecast.spread : 0.0)) + 1;
   }
 
-  // Lists what rational numbers have told, up to the event that the orbit has come to: all of it,
-  // or only what was touched where it ends before the event.
+  // Reports ties decided by rational arithmetic up to this event; if the orbit ends earlier, only
+  // tangencies before the end.
   enum class Listed : unsigned char { all, touched };
   void list_ties(std::uint64_t event, Listed listed) {
     for (const WaitingTie& tie : waiting_) {

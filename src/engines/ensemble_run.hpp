@@ -84,7 +84,7 @@ class EnsembleRun {
   }
 
   int threads() const { return threads_; }
-  std::optional<InstructionSet> lanes;  ///< to be told of by the user
+  std::optional<InstructionSet> lanes;  ///< that the report names
 
   /// Every thread works until there are no blocks left.
   Result run(const Work& work) {

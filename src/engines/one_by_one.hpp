@@ -38,7 +38,7 @@ class OneByOne : public Engine, private Observer {
   void put_back(GroupTangent&, const Time&);
 
   /// Deviations of a particle: across its orbit where it is free and alone; else those of its
-  /// group, which are told of the group's first member.
+  /// group, which are reported with the group's first member.
   struct Followed {
     motion::FreeTangent tangent;
     GroupTangent* group = nullptr;

@@ -7,7 +7,7 @@
 
 namespace carom::events {
 
-/// `path` tells of a point its time(), its function g() and the rate() of that, and gives the point
+/// `path` reports a point its time(), its function g() and the rate() of that, and gives the point
 /// at() a time. Of g it is known that low and high are on different sides: g > 0, or not. Newton's
 /// steps from the nearer point, halves where they leave the bracket or do not help. It ends at g =
 /// 0, or where no double is left between the two sides; of these the one with the smaller |g|.

@@ -1,4 +1,4 @@
-// Arithmetic of boxes in the complex plane: each result encloses all values, but for rounding
+// Arithmetic of boxes in the complex plane: each result encloses all values, except for rounding
 // (1e-15 relative), which the bounds made of them do not need. What has no bound has infinite or
 // undefined ends.
 #pragma once

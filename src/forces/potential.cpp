@@ -60,7 +60,7 @@ class AtCenters final : public Potential {
                BasicVector<Number>{Number::variable(x.x - c.x, 0), Number::variable(x.y - c.y, 1)},
                force);
       hessian.xx -= force.x.d[0];
-      hessian.xy -= 0.5 * (force.x.d[1] + force.y.d[0]);  // equal but for rounding
+      hessian.xy -= 0.5 * (force.x.d[1] + force.y.d[0]);  // equal except for rounding
       hessian.yy -= force.y.d[1];
     }
   }

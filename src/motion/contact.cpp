@@ -165,7 +165,7 @@ class Guides {
     const double gap = d2 - near_ * near_, b = dot(apart_, velocity_);
     if (!(v2 > 0.0)) return gap > 0.0 ? Interval{0.0, 0.0} : Interval{};
     // As in time_to_contact. `near` is larger than need be by more than the rounding of all this,
-    // but for that of the last operations.
+    // except for that of the last operations.
     const double speed = std::sqrt(v2), across = geometry::cross(apart_, velocity_);
     const double discriminant = (near_ * speed - across) * (near_ * speed + across);
     if (gap > 0.0 && (b >= 0.0 || discriminant <= 0.0)) return {0.0, 0.0};

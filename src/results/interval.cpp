@@ -32,7 +32,7 @@ Interval wilson_interval(std::uint64_t successes, std::uint64_t trials) {
 }
 
 // Numbers are whole. Where a part should have k + f successes and has k or k + 1, its variance is
-// f (1 - f) <= 1/4, which 16 such numbers tell badly: no less is taken, but for few successes,
+// f (1 - f) <= 1/4, which 16 such numbers tell badly: no less is taken, except for few successes,
 // where that of independent trials is less.
 double least_variance(double successes, double trials) {
   return std::min(replicates / 4.0, successes * ((trials - successes) / trials));

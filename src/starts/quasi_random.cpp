@@ -55,7 +55,7 @@ void Sampler::prepare_quasi_random() {
 }
 
 // Most points of the sequence lie in the domain. One that does not is replaced by random points
-// until one does: given that, it is as uniform in the domain as they are.
+// until one does: the replacement has the same distribution as the others.
 State Sampler::quasi_random(const World& world, RandomStream& random, std::uint64_t trajectory,
                             double speed, bool again) const {
   const starts::Sobol::Point point = quasi_random_->point(trajectory);

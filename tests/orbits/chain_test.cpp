@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "carom/table/make.hpp"
+#include "orbits/itinerary.hpp"
 #include "orbits/newton.hpp"
 #include "orbits/shortest.hpp"
-#include "orbits/words.hpp"
 #include "random_tables.hpp"
 
 namespace carom::orbits {

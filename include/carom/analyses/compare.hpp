@@ -87,7 +87,7 @@ struct ComparedScheme {
   /// step between hits was found.
   std::optional<MeasuredNumber> areas;
   double areas_step = 0.0;  ///< the length of these steps
-  /// Of the longest steps that measure it: does the way back lead to the start but for rounding?
+  /// Of the longest steps that measure it: does the way back lead to the start except for rounding?
   std::optional<bool> reversible;
 };
 

@@ -53,8 +53,8 @@ struct VanishingExponents {
 VanishingExponents vanishing_exponents(const System&);
 /// How many of them are positive, of a spectrum; else 0.
 std::size_t growing_exponents(const System&);
-/// Why the deviations of all orbits grow linearly, but for orbits that no random start meets, as a
-/// phrase: walls that are straight, or enough conserved quantities. "": it is not known.
+/// Why the deviations of all orbits grow linearly, except for orbits that no random start meets, as
+/// a phrase: walls that are straight, or enough conserved quantities. "": it is not known.
 std::string why_all_are_regular(const System&);
 /// What the sums of a run say of its system.
 LyapunovEstimate estimate_of(const System&, const LyapunovResult&);

@@ -29,7 +29,8 @@ struct OrbitSearchOptions {
 inline constexpr std::uint64_t most_words = 1'000'000;
 
 struct OrbitSearchResult {
-  /// Each once but for shift, reversal and symmetries of the table, by number of hits and length.
+  /// Each once except for shift, reversal and symmetries of the table, by number of hits and
+  /// length.
   std::vector<PeriodicOrbit> orbits;
   std::uint64_t words = 0;        ///< cyclic words of discs that were tried; 0: none
   std::uint64_t recurrences = 0;  ///< of orbits from random starts that were tried

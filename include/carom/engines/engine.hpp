@@ -49,7 +49,7 @@ struct ParticleEnd {
   int last_wall = -1;  ///< as World::last_wall
   std::string report;  ///< as World::report, of one that failed
   EnergyBalance
-      energy;  ///< as World::energy_balance; but for EngineOptions::energy, kinetic ones alone
+      energy;  ///< as World::energy_balance; except for EngineOptions::energy, kinetic ones alone
 };
 
 struct TrajectoryEnd {
@@ -70,8 +70,8 @@ class Listener {
   /// The state (not its wall) at the time of that number (EngineOptions::times).
   virtual void sample(const Trajectory&, int /*particle*/, std::size_t /*number*/, const State&) {}
   /// Logarithms of the lengths of deviations at the time of that number, two or a frame, and the
-  /// hits by then (EngineOptions::deviations, frame). A particle that leaves is
-  /// not told of after its last hit.
+  /// hits by then (EngineOptions::deviations, frame). No call after the last
+  /// hit of a particle that leaves.
   virtual void stretched(const Trajectory&, int /*particle*/, std::size_t /*number*/,
                          std::span<const double> /*logarithms*/, std::uint64_t /*hits*/) {}
   /// As Observer::crossing (EngineOptions::surface).

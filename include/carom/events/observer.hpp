@@ -1,4 +1,4 @@
-// What is told of the events in a world.
+// What an observer hears of the events in a world.
 #pragma once
 
 #include "carom/events/event.hpp"

@@ -1,4 +1,4 @@
-// What is told of a particle that could not go on.
+// What is reported of a particle that could not go on.
 #pragma once
 
 #include <string>

@@ -64,7 +64,7 @@ void refuse_other_version(const StoredEnsemble&);
 std::string difference(const std::string& toml, const std::string& other_toml,
                        const std::vector<std::string>& but = {});
 /// Keys that the report of an ensemble alone asks for: they may differ in what goes on with it and
-/// in its parts. A window, but for exponents, which are added up within theirs.
+/// in its parts. A window, except for exponents, which are added up within theirs.
 std::vector<std::string> keys_of_reports(const StoredEnsemble&);
 
 /// A part of a sum.

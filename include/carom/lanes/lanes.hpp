@@ -51,16 +51,16 @@ class Lanes {
   virtual void limit_hits(std::uint64_t hits) = 0;
   /// A trajectory's state (not its wall) at the time of that number.
   using Sampled = std::function<void(std::uint64_t tag, std::size_t number, const State&)>;
-  /// Increasing times; `sampled` is told of each trajectory what World's observer would be, in
-  /// order and before its end.
+  /// Increasing times; `sampled` receives what World's observer would, in order and
+  /// before the end of the trajectory.
   virtual void sample_at(std::vector<double> times, Sampled sampled) = 0;
   /// A trajectory's state after a hit, and the hits that it has made by then. False: it ends there,
   /// as one that survives.
   using Hit = std::function<bool(std::uint64_t tag, const State&, std::uint64_t hits)>;
   virtual void report_hits(Hit) = 0;
-  /// Increasing times; `stretched` is told of each trajectory the logarithms of the lengths of two
-  /// deviations across it at these times and the hits by then (motion/free_tangent.hpp). One that
-  /// leaves is not told of after its last hit.
+  /// Increasing times; `stretched` receives, per trajectory and time, the logarithms of the lengths
+  /// of two deviations across it and the hits by then (motion/free_tangent.hpp). No call after the
+  /// last hit of a trajectory that escapes.
   using Stretched = std::function<void(std::uint64_t tag, std::size_t number,
                                        std::span<const double> logarithms, std::uint64_t hits)>;
   /// Free lanes alone can: others throw std::invalid_argument.

@@ -7,8 +7,8 @@
 
 namespace carom {
 
-/// What does not change along an orbit (but for the speed: by forces and contacts). omega = charge
-/// B / mass (a = omega (v_y, -v_x)).
+/// What does not change along an orbit (except for the speed: by forces and contacts). omega =
+/// charge B / mass (a = omega (v_y, -v_x)).
 struct Particle {
   double mass = 1.0;
   double charge = 1.0;

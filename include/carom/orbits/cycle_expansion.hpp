@@ -25,8 +25,8 @@ struct CycleExpansion {
 };
 
 /// Cycle expansion (P. Cvitanović et al., ChaosBook, chapters 22 and 23). `orbits` are all prime
-/// orbits up to `most_hits` hits, each once but for its copies, and all hyperbolic. With the period
-/// T and the tangent map M of each, and r its repeats,
+/// orbits up to `most_hits` hits, each once except for its copies, and all hyperbolic. With the
+/// period T and the tangent map M of each, and r its repeats,
 ///   F(gamma) = exp(- sum over orbits and r of  e^(r gamma T) z^(r hits) / (r |det(1 - M^r)|))
 /// as a power series in z up to z^most_hits, at z = 1; the dynamical zeta function has |Lambda|^r
 /// in place of the determinant. The escape rate is the least gamma > 0 at which it is 0.

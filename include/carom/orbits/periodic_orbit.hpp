@@ -64,7 +64,7 @@ enum class Stability : unsigned char { elliptic, hyperbolic, inverse_hyperbolic,
 const char* name_of(Stability);
 
 /// What a symmetry of the table leaves of an orbit that it maps onto itself: the orbit repeats
-/// after 1/order of its period but for the symmetry.
+/// after 1/order of its period except for the symmetry.
 struct SymmetryReduced {
   int order = 1;
   double period = 0.0;
@@ -77,7 +77,7 @@ struct PeriodicOrbit {
   std::vector<OrbitHit> hits;
   double period = 0.0, length = 0.0;
   /// Closed integral of p dq = m (v length + omega area), with the signed area that the orbit runs
-  /// round, counter-clockwise positive. NaN if it is closed only but for a lattice vector and a
+  /// round, counter-clockwise positive. NaN if it is closed only except for a lattice vector and a
   /// field acts: then it depends on the gauge.
   double action = 0.0;
   double trace = 0.0;                   ///< of the tangent map of one period, across the orbit

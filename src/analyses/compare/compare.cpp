@@ -26,8 +26,8 @@ constexpr int most_steps = 10, dense_from = 5;
 constexpr double between_halves = 2.0 / 3.0;
 constexpr double chosen_tolerances[] = {1e-3, 1e-4,  1e-5,  1e-6,  1e-7, 1e-8,
                                         1e-9, 1e-10, 1e-11, 1e-12, 1e-13};
-/// The way back leads to the start but for rounding: of the way there, of the way back, and of the
-/// growth along both.
+/// The way back leads to the start except for rounding: of the way there, of the way back, and of
+/// the growth along both.
 constexpr double rounding_of_reversal = 16.0;
 
 void refuse_systems(const System& system) {

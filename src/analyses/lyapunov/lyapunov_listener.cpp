@@ -108,7 +108,7 @@ void LyapunovListener::take(Orbit& mine, const GrowthTimes::Mark& mark,
 TrajectoryRecord LyapunovListener::record(const Trajectory& t, const TrajectoryEnd& end,
                                           std::size_t p) const {
   TrajectoryRecord r = record_of_(index_of(t, p), t.starts[p], end.particles[p]);
-  // Those that interact are one orbit, whose deviations are told of the first.
+  // Those that interact are one orbit, whose deviations come with the first.
   const Orbit& mine = under_way_[t.slot][together_ ? 0 : p];
   if (!(mine.told > 0.0)) return r;
   const TimeWindow window = growth_window(system_);

@@ -59,7 +59,7 @@ double mean_time(const SplittingResult& result, std::size_t level) {
 }
 
 // What small populations tell: how fast trajectories leave, and how long a hit takes.
-struct Pilot {
+struct TrialRun {
   double rate = 0.0;          // per time
   double flight = 0.0;        // mean time of a hit
   double rate_of_hits = 0.0;  // per hit
@@ -71,8 +71,8 @@ struct Pilot {
   throw InputError(Place{{}, 0, 0, key}, problem, expected);
 }
 
-Pilot pilot_of(const System& system, SplittingPlan plan, double until,
-               const SplittingOptions& options) {
+TrialRun trial_run_of(const System& system, SplittingPlan plan, double until,
+                      const SplittingOptions& options) {
   constexpr std::size_t count = 12;
   plan.population = 1000;
   plan.repetitions = 2;
@@ -139,26 +139,26 @@ std::optional<RepellerExponent> measure_repeller(const System& system, TimeWindo
   plan.population =
       std::min(largest_population, system.run.trajectories / (repetitions * kick_sizes));
   plan.deviations = {unit_length, 0.0};
-  const Pilot pilot = pilot_of(system, plan, window.to, options);
-  if (!pilot.complete) return std::nullopt;
-  plan.deviations->tilt = pilot.rate;
+  const TrialRun trial = trial_run_of(system, plan, window.to, options);
+  if (!trial.complete) return std::nullopt;
+  plan.deviations->tilt = trial.rate;
   // Levels: as far apart as a stage may lose, and not too many.
-  const double hits = std::floor(window.to / pilot.flight) - 1.0;
-  const double by_loss = pilot.rate_of_hits > 0.0
-                             ? -elementary::log(kept_by_stage) / pilot.rate_of_hits
+  const double hits = std::floor(window.to / trial.flight) - 1.0;
+  const double by_loss = trial.rate_of_hits > 0.0
+                             ? -elementary::log(kept_by_stage) / trial.rate_of_hits
                              : hits / least_levels;
   const double stride = std::max({1.0, std::floor(std::min(by_loss, hits / 8.0)),
                                   std::ceil(hits / static_cast<double>(most_levels))});
   for (double level = 0.0; level <= hits; level += stride) plan.levels.push_back(level);
   // The first level at which the window has begun.
   const auto first =
-      static_cast<std::size_t>(std::max(1.0, std::ceil(window.from / (pilot.flight * stride))));
+      static_cast<std::size_t>(std::max(1.0, std::ceil(window.from / (trial.flight * stride))));
   if (plan.levels.size() < first + least_levels)
     refuse("run.t_max",
            fmt::format("trajectories make {} hits in the window: too few for an exponent",
-                       static_cast<std::uint64_t>((window.to - window.from) / pilot.flight)),
+                       static_cast<std::uint64_t>((window.to - window.from) / trial.flight)),
            fmt::format("at least {:.3g} (--t-max), with an early start of the window",
-                       2.0 * least_levels * pilot.flight * stride));
+                       2.0 * least_levels * trial.flight * stride));
   const SplittingResult result = run_splitting(system, plan, options);
   if (!result.complete) return std::nullopt;
   const std::size_t last = plan.levels.size() - 1, middle = (first + last) / 2;

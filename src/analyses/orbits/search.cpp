@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "analyses/orbits/recurrences.hpp"
+#include "analyses/orbits/close_returns.hpp"
 #include "carom/base/error.hpp"
 #include "carom/base/stopwatch.hpp"
 #include "carom/events/world.hpp"
@@ -18,9 +18,9 @@
 #include "orbits/across.hpp"
 #include "orbits/confirm.hpp"
 #include "orbits/describe.hpp"
+#include "orbits/itinerary.hpp"
 #include "orbits/shortest.hpp"
 #include "orbits/symmetry.hpp"
-#include "orbits/words.hpp"
 
 namespace carom {
 
@@ -194,9 +194,9 @@ OrbitSearchResult find_orbits(const System& system, const OrbitSearchOptions& op
   result.words = chains.size();
   // Between discs words are all there is, unless flights are curved.
   if (chains.empty() || system.particles.front().omega != 0.0) {
-    const RecurrencePlan plan{fewest_hits(system), options.most_hits, options.starts, options.tries,
-                              options.progress};
-    std::vector<Chain> more = recurrences(search, boundary, plan, stopped);
+    const CloseReturnPlan plan{fewest_hits(system), options.most_hits, options.starts,
+                               options.tries, options.progress};
+    std::vector<Chain> more = close_returns(search, boundary, plan, stopped);
     result.recurrences = more.size();
     std::move(more.begin(), more.end(), std::back_inserter(chains));
   }

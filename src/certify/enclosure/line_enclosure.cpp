@@ -114,7 +114,7 @@ void LineEnclosure::settle(Bound& turned) {
   const Bound rounding = radius(v) * Bound(1.001 / arena_->speed);
   velocity_ = middle(v);
   turned = turned + rounding;
-  // sqrt(1 - s)(1 + s'/2) with s' = s but for its last bits.
+  // sqrt(1 - s)(1 + s'/2) with s' = s except for its last bits.
   const Bound left = size * size + size * Bound(0x1p-60) + slow.radius() + rounding;
   if (left < stretch_) stretch_ = left;
 }

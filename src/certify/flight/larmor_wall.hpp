@@ -114,8 +114,8 @@ class LarmorPieces {
   static constexpr double above_pi = 0x1.921fb54442d19p+1;  ///< the double after pi
   /// Any angle below pi whose sine is not small.
   static constexpr double near_end_of_turn = 3.0;
-  /// Below it a flight is straight, but for less than its coordinates are rounded. A field may be
-  /// too small for a double.
+  /// Below it a flight is straight, except for less than its coordinates are rounded. A field may
+  /// be too small for a double.
   static constexpr double hardly_turned = 0x1p-60;
   /// Half the angle that is turned by the end of piece k, less 2^-40 of it: that is more than its
   /// rounding, and as the cotangent has the slope -1/sin^2 it moves kappa by more than sine and

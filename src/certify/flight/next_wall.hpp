@@ -140,8 +140,8 @@ class First {
   bool found() const { return found_; }
   /// Was there one after the last time?
   bool later() const { return later_; }
-  /// Has this one been offered? Not of every one that is said: that only costs time. The copies of
-  /// a wall along a flight are offered again soon, so that the last ones tell.
+  /// True only if this copy was among the last few that were tested. False answers are harmless:
+  /// the copy is tested again.
   bool knows(const Key& key) const {
     if (found_ && best_key_ == key) return true;
     const auto last = others_.size() > 32 ? others_.end() - 32 : others_.begin();

@@ -98,7 +98,7 @@ void near_piece(const Whereabouts& w, geometry::Vector q, double off, Try try_co
 }
 
 /// At most how far an enclosure reaches from a point of doubles. Numbers that are taken at their
-/// word are that point, but for rounding.
+/// word are that point, except for rounding.
 inline double off_by(const VectorOf<Interval>& v, geometry::Vector v0) {
   return (v.x - Interval(v0.x)).size() + (v.y - Interval(v0.y)).size();
 }

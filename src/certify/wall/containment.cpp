@@ -23,9 +23,8 @@ Verdict within(const WallOf<Ball>& closed, const BallVector& P) {
   return above_zero(sign_or_tie(closed.turn > 0 ? -beyond : beyond));
 }
 
-// A ray from a point of the domain meets the boundary from inside first, one from outside from
-// outside: that is from inside for the loop turned round. A direction in which this is not told,
-// say into a joint, is replaced by another.
+// A ray from a point of the domain first crosses the boundary from inside, a ray from outside from
+// the outer side. A direction that stays undecided, say through a joint, is replaced by another.
 Verdict within(const WallLoop& loop, const std::vector<WallOf<Ball>>& walls, const BallVector& P) {
   const auto wall = [&](int k) -> const WallOf<Ball>& {
     return walls[static_cast<std::size_t>(k)];

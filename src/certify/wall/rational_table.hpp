@@ -8,7 +8,7 @@ namespace carom::certify {
 
 inline bool is_zero(const VectorOf<Rational>& v) { return is_zero(v.x) && is_zero(v.y); }
 
-/// The cosine and sine of an angle: unknown but for quarters of a turn.
+/// The cosine and sine of an angle: unknown except for quarters of a turn.
 VectorOf<Rational> rational_direction(const ExactNumber& angle);
 
 /// The table of a system; numbers of walls that are not rational are unknown. Throws NotRational

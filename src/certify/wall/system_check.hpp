@@ -1,5 +1,5 @@
-// Can an orbit start here? The table must be the one of the doubles but for rounding, and the start
-// inside it as it was written, or on the wall it is said to be on, and moving.
+// Can an orbit start here? The table must be the one of the doubles except for rounding, and the
+// start inside it as it was written, or on the wall it is said to be on, and moving.
 #pragma once
 
 #include "carom/certify/exact_system.hpp"

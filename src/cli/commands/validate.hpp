@@ -22,8 +22,8 @@ struct Validation {
   int passed() const;
   int failed() const;
 };
-/// Runs what `soak` and `scale` ask for. `before` is told of each case with the share of the cases
-/// done, `after` when it has run.
+/// Runs what `soak` and `scale` ask for. `before` is called with each case and the share of the
+/// cases done, `after` when it has run.
 Validation run_validation(const Options&, const validation::CheckOptions&,
                           const std::function<void(double share, const std::string& name)>& before,
                           const std::function<void(const Validation::Done&)>& after);

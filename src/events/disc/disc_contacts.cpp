@@ -28,7 +28,7 @@ InputError refused(const char* problem, const char* expected) {
 }
 
 /// Does the separation at a contact tell the direction from centre to centre? Its length is the sum
-/// of the radii, but for rounding, which turns it by as much as it stretches it.
+/// of the radii, except for rounding, which turns it by as much as it stretches it.
 bool points_along_centres(Vector d, double reach) {
   constexpr double share = 0x1p-10;
   return std::fabs(std::sqrt(dot(d, d)) - reach) <= share * reach;

@@ -37,22 +37,22 @@ Origin PieceTable::origin_of(const Flight& f, int offset) const {
   return o;
 }
 
-Crossing PieceTable::crossing_of(const Flight& f, int piece, const Origin& o, bool stands) const {
+Crossing PieceTable::crossing_of(const Flight& f, int piece, const Origin& o, bool on_wall) const {
   const PreparedCurve& w = *data[at(piece)].shape;
   Crossing c;
   c.quadratic = f.omega == 0.0
-                    ? quadratic<false>(w, o.point, f.velocity, f.square_speed, 0.0, stands)
-                    : quadratic<true>(w, o.point, f.velocity, f.square_speed, f.omega, stands);
+                    ? quadratic<false>(w, o.point, f.velocity, f.square_speed, 0.0, on_wall)
+                    : quadratic<true>(w, o.point, f.velocity, f.square_speed, f.omega, on_wall);
   c.root = rising_root(c.quadratic);
-  if (stands && f.omega != 0.0) c.root.kappa = -c.quadratic.c / (2.0 * c.quadratic.b);
+  if (on_wall && f.omega != 0.0) c.root.kappa = -c.quadratic.c / (2.0 * c.quadratic.b);
   return c;
 }
 
 namespace {
 
 /// Does the flight to kappa end on the ellipse to half of the digits? e: its start seen from the
-/// centre. Where roots of the quartic cannot be told apart an interval may hold one root and be of
-/// no use as a number.
+/// centre. If two roots of the quartic nearly coincide, the interval that isolates one
+/// may be too wide to serve as its value.
 bool ends_on_ellipse(const PreparedCurve& w, Vector e, Vector v, double omega, double kappa) {
   const Vector d = e + displacement(flight_factors(kappa, omega, 0.5), v);
   const geometry::OnEllipse<double> on = geometry::on_ellipse(d, w.first_axis, w.second_axis);
@@ -73,7 +73,7 @@ bool PieceTable::stands_on_ellipse(const Flight& f, int piece) const {
 
 Sign PieceTable::first_exit(const Flight& f, int piece, const Origin& seen, double inflation,
                             Crossing& c) const {
-  const bool stands = stands_on_ellipse(f, piece);
+  const bool on_wall = stands_on_ellipse(f, piece);
   const PreparedCurve& w = *data[at(piece)].shape;
   FlightScale s = seen.scale;
   s.inflation = inflation;
@@ -83,13 +83,13 @@ Sign PieceTable::first_exit(const Flight& f, int piece, const Origin& seen, doub
   const Vector vm{dot(w.first_axis, f.velocity), dot(w.second_axis, f.velocity)};
   const Vector jm{dot(w.first_axis, j), dot(w.second_axis, j)};
   const double row = std::max(norm_1(w.first_axis), norm_1(w.second_axis));
-  QuarticError error = quartic_error(s, norm_1(e), w.centre_error, row, stands);
+  QuarticError error = quartic_error(s, norm_1(e), w.centre_error, row, on_wall);
   // An arc's ellipse on which the start lies to rounding: from there, the square of its image
   // for 1. From beyond the arc's chord no flight to a larger |kappa| ends on it.
   const double off = std::fabs(dot(em, em) - 1.0);
-  const bool beside = !w.closed && !stands && off <= error.q[4];
+  const bool beside = !w.closed && !on_wall && off <= error.q[4];
   Quartic<double> q =
-      ellipse_quartic(em, stands || beside ? dot(em, em) : 1.0, vm, jm, f.omega, 0.5);
+      ellipse_quartic(em, on_wall || beside ? dot(em, em) : 1.0, vm, jm, f.omega, 0.5);
   if (w.orientation > 0)
     for (double& x : q.q) x = -x;
   // In the quartic that square stands as it is, times 2 n and times n^2, n = omega^2 / 4; .251 for
@@ -101,7 +101,7 @@ Sign PieceTable::first_exit(const Flight& f, int piece, const Origin& seen, doub
     error.q[0] += n * n * off;
   }
   const RisingRoots found =
-      rising_roots(q, error, stands ? 3 : 4, std::max(0.5 * s.omega, row * s.speed_1),
+      rising_roots(q, error, on_wall ? 3 : 4, std::max(0.5 * s.omega, row * s.speed_1),
                    w.closed ? 1 : 4, beside ? kappa_beyond_chord(w, origin, s) : HUGE_VAL);
   for (int i = 0; i < found.count; ++i) {
     c.root.kappa = found.roots[i].kappa;
@@ -143,9 +143,9 @@ double PieceTable::error_of(const Flight& f, const Ahead& ahead) const {
     return first_exit(f, ahead.piece, o, options.filter_inflation, c) == Sign::positive ? c.error
                                                                                         : HUGE_VAL;
   }
-  const bool stands = stands_on(f, ahead.piece);
-  const Crossing c = crossing_of(f, ahead.piece, o, stands);
-  return kappa_error(c.quadratic, quadratic_error(*p.shape, o.point, o.scale, stands), c.root);
+  const bool on_wall = stands_on(f, ahead.piece);
+  const Crossing c = crossing_of(f, ahead.piece, o, on_wall);
+  return kappa_error(c.quadratic, quadratic_error(*p.shape, o.point, o.scale, on_wall), c.root);
 }
 
 ExactFlight PieceTable::exact_flight(const Flight& f) const {

@@ -13,10 +13,10 @@ inline double norm_1(geometry::Vector v) { return std::fabs(v.x) + std::fabs(v.y
 
 /// An ellipse without field. `stands`: as below.
 [[gnu::always_inline]] inline geometry::Quadratic<double> ellipse_quadratic(
-    const geometry::PreparedCurve& w, geometry::Vector e, geometry::Vector v, bool stands) {
+    const geometry::PreparedCurve& w, geometry::Vector e, geometry::Vector v, bool on_wall) {
   geometry::Quadratic<double> q =
       geometry::ellipse_quadratic(e, v, w.first_direction, w.first_weight, w.second_weight);
-  if (stands) q.a = 0.0;
+  if (on_wall) q.a = 0.0;
   return q;
 }
 
@@ -26,39 +26,39 @@ inline double norm_1(geometry::Vector v) { return std::fabs(v.x) + std::fabs(v.y
 template <bool larmor>
 [[gnu::always_inline]] inline geometry::Quadratic<double> quadratic(
     const geometry::PreparedCurve& w, geometry::Vector origin, geometry::Vector v, double v2,
-    double omega, bool stands) {
+    double omega, bool on_wall) {
   using namespace geometry;
   if (w.kind == CurveKind::segment) {
-    const Vector e = stands ? Vector{} : origin - w.from;
+    const Vector e = on_wall ? Vector{} : origin - w.from;
     return line_quadratic(e, w.tangent, v, omega, 0.5);
   }
   const Vector e = origin - w.centre;
   Quadratic<double> q;
   if (w.kind == CurveKind::ellipse) {
-    q = ellipse_quadratic(w, e, v, stands);
+    q = ellipse_quadratic(w, e, v, on_wall);
   } else if (larmor) {
-    q = circle_quadratic(e, stands ? dot(e, e) : w.r2, v, v2, omega, 0.5);
+    q = circle_quadratic(e, on_wall ? dot(e, e) : w.r2, v, v2, omega, 0.5);
   } else {
     q = circle_quadratic(e, w.r2, v, v2);
-    if (stands) q.a = 0.0;
+    if (on_wall) q.a = 0.0;
   }
   return w.orientation > 0 ? -q : q;
 }
 
 [[gnu::always_inline]] inline geometry::QuadraticError quadratic_error(
     const geometry::PreparedCurve& w, geometry::Vector origin, const geometry::FlightScale& scale,
-    bool stands) {
+    bool on_wall) {
   using namespace geometry;
   QuadraticError error{};
   if (w.kind == CurveKind::segment) {
-    error = line_error(scale, stands ? 0.0 : norm_1(origin - w.from));
+    error = line_error(scale, on_wall ? 0.0 : norm_1(origin - w.from));
   } else if (w.kind == CurveKind::circle) {
     error = circle_error(scale, norm_1(origin - w.centre), w.centre_error, w.r2);
   } else {
     const double row = std::max(norm_1(w.first_axis), norm_1(w.second_axis));
     error = ellipse_error(scale, norm_1(origin - w.centre), w.centre_error, row);
   }
-  if (stands) error.a = 0.0;
+  if (on_wall) error.a = 0.0;
   return error;
 }
 
@@ -68,8 +68,8 @@ template <bool larmor>
 /// rounded away.
 [[gnu::always_inline]] inline bool far_root_certain(const geometry::Quadratic<double>& q,
                                                     const geometry::QuadraticError& e,
-                                                    bool stands) {
-  return stands ? q.b > 0.0 : q.b > e.b || std::fabs(q.a) > e.a;
+                                                    bool on_wall) {
+  return on_wall ? q.b > 0.0 : q.b > e.b || std::fabs(q.a) > e.a;
 }
 
 /// Without field, the time of a crossing is a quotient: that of a conic's rising root.

@@ -83,9 +83,9 @@ bool HitFinder::filtered_enclosed(const Flight& f, Ahead& ahead) const {
       first = {geometry::fused_cross(w.tangent, origin - w.from),
                -geometry::fused_cross(w.tangent, v)};
     } else {
-      const bool stands = best == f.start_piece;
-      const Quadratic<double> q = quadratic<false>(w, origin, v, f.square_speed, 0.0, stands);
-      first = straight_time(q, stands ? std::fabs(q.b) : std::sqrt(discriminant_of(q)));
+      const bool on_wall = best == f.start_piece;
+      const Quadratic<double> q = quadratic<false>(w, origin, v, f.square_speed, 0.0, on_wall);
+      first = straight_time(q, on_wall ? std::fabs(q.b) : std::sqrt(discriminant_of(q)));
     }
   }
   const double duration = first.time / first.unit;

@@ -49,15 +49,15 @@ inline constexpr double least_square = 0x1p-900;
     found = p / base::Pair{p[1], p[0]};
   } else {
     // A conic about the domain: all signs turned.
-    const bool stands = wall == f.start_piece;
+    const bool on_wall = wall == f.start_piece;
     geometry::Quadratic<double> q;
     if (w.kind == geometry::CurveKind::circle) {
       q = geometry::circle_quadratic(origin - w.centre, w.r2, v, f.square_speed);
-      if (stands) q.a = 0.0;
+      if (on_wall) q.a = 0.0;
     } else {
-      q = ellipse_quadratic(w, origin - w.centre, v, stands);
+      q = ellipse_quadratic(w, origin - w.centre, v, on_wall);
     }
-    const double n = std::fabs(q.b) + (stands ? std::fabs(q.b) : std::sqrt(discriminant_of(q)));
+    const double n = std::fabs(q.b) + (on_wall ? std::fabs(q.b) : std::sqrt(discriminant_of(q)));
     found = detail::quotients(-q.b, base::Pair{-q.a, n}, base::Pair{n, q.c});
   }
   const double duration = found[0];
@@ -109,8 +109,8 @@ inline constexpr double least_square = 0x1p-900;
   } else {
     q = quadratic<true>(w, origin, v, f.square_speed, f.omega, wall == f.start_piece);
   }
-  const bool stands = wall == f.start_piece;
-  if (!stands && w.kind == geometry::CurveKind::segment) {
+  const bool on_wall = wall == f.start_piece;
+  if (!on_wall && w.kind == geometry::CurveKind::segment) {
     // Twice the rounding of lengths exceeds 8u of them.
     const double bound =
         t_.options.filter_inflation * (1.42 * f.start_error + 2.0 * t_.enclosure_rounding);
@@ -119,8 +119,9 @@ inline constexpr double least_square = 0x1p-900;
   } else {
     const geometry::FlightScale scale{f.start_error, norm_1(v), std::fabs(f.omega),
                                       t_.options.filter_inflation};
-    if (stands ? !(q.b > 0.0)
-               : !far_root_certain(q, quadratic_error(w, origin, scale, false), false)) [[unlikely]]
+    if (on_wall ? !(q.b > 0.0)
+                : !far_root_certain(q, quadratic_error(w, origin, scale, false), false))
+        [[unlikely]]
       return false;
   }
   const double discriminant = discriminant_of(q);

@@ -24,8 +24,8 @@ template <bool cells>
 [[gnu::always_inline]] inline Sign HitFinder::meets_disc(const Flight& f,
                                                          const PieceTable::Near& disc,
                                                          FirstDisc& first) const {
-  const bool stands = disc.piece == f.start_piece;
-  if (stands)
+  const bool on_wall = disc.piece == f.start_piece;
+  if (on_wall)
     return disc.domain_outside ? Sign::negative : Sign::undecided;  // a line leaves a disc for good
   const Origin& origin = origins_[cells ? at(disc.offset) : 0];
   const Vector e = origin.point - Vector{disc.x, disc.y};

@@ -46,12 +46,12 @@ int PieceTable::hole_at(const Flight& f, const Ahead& ahead, double u,
   }
   ++counts.exact;
   const ExactFlight flight = exact_flight(f);
-  const bool stands = stands_on(f, ahead.piece);
+  const bool on_wall = stands_on(f, ahead.piece);
   for (const int h : wall.holes) {
     const Hole& hole = table.holes[at(h)];
     if (hole.from == 0.0 && hole.to >= end_parameter(wall.curve)) return h;  // all of the wall
     const double end = hole.to >= end_parameter(wall.curve) ? -1.0 : hole.to;
-    if (flight.exit_within(ahead.piece, ahead.root, f.cell, hole.from, end, stands)) return h;
+    if (flight.exit_within(ahead.piece, ahead.root, f.cell, hole.from, end, on_wall)) return h;
   }
   return -1;
 }

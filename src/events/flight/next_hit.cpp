@@ -32,12 +32,12 @@ struct Meeting {
   const Origin& origin;
   const PreparedCurve& curve;
   int piece;
-  bool stands;     ///< the particle stands on it
+  bool on_wall;    ///< the particle stands on it
   bool same_side;  ///< both its joints lie on one side of the flight; not of closed curves …
   bool left;       ///< … on the left
 
   QuadraticError error() const {
-    return quadratic_error(curve, origin.point, origin.scale, stands);
+    return quadratic_error(curve, origin.point, origin.scale, on_wall);
   }
   /// Does the flight meet the whole line or conic at all?
   Sign is_cut(const Crossing& c) const {
@@ -97,7 +97,7 @@ bool is_far(const PreparedCurve& w, Vector origin, double start) {
 [[gnu::always_inline]] inline Sign line_through_conic(const Meeting& m, Crossing& c) {
   const PreparedCurve& w = m.curve;
   const Flight& f = m.flight;
-  if (m.same_side && !m.stands) {
+  if (m.same_side && !m.on_wall) {
     if (w.kind == CurveKind::circle && foot_off_arc(w, m.origin.point, f.velocity, m.origin.scale))
       return Sign::negative;
     const Sign leaves = m.table.crossed_twice(f, m.piece, m.origin);
@@ -105,14 +105,14 @@ bool is_far(const PreparedCurve& w, Vector origin, double start) {
   }
   // Standing on the wall: the other crossing of the conic lies ahead exactly when the particle is
   // inside it.
-  if (m.stands && w.orientation < 0) return Sign::negative;
+  if (m.on_wall && w.orientation < 0) return Sign::negative;
   Quadratic<double>& q = c.quadratic;
-  q = quadratic<false>(w, m.origin.point, f.velocity, f.square_speed, 0.0, m.stands);
-  c.root = m.stands ? Root{q.b * q.b, std::fabs(q.b), 0.0} : rising_root(q);
+  q = quadratic<false>(w, m.origin.point, f.velocity, f.square_speed, 0.0, m.on_wall);
+  c.root = m.on_wall ? Root{q.b * q.b, std::fabs(q.b), 0.0} : rising_root(q);
   const Quotient quotient = straight_time(q, c.root.root);
   c.time = quotient.time;
   c.unit = quotient.unit;
-  if (m.stands) return Sign::positive;
+  if (m.on_wall) return Sign::positive;
   if (w.closed) {
     const Sign cut = m.is_cut(c);
     if (cut != Sign::positive) return cut;
@@ -126,12 +126,12 @@ bool is_far(const PreparedCurve& w, Vector origin, double start) {
 [[gnu::always_inline]] inline void cross_larmor(const Meeting& m, Crossing& c) {
   const Flight& f = m.flight;
   Quadratic<double>& q = c.quadratic;
-  q = quadratic<true>(m.curve, m.origin.point, f.velocity, f.square_speed, f.omega, m.stands);
-  c.root = m.stands ? Root{q.b * q.b, std::fabs(q.b), -q.c / (2.0 * q.b)} : rising_root(q);
+  q = quadratic<true>(m.curve, m.origin.point, f.velocity, f.square_speed, f.omega, m.on_wall);
+  c.root = m.on_wall ? Root{q.b * q.b, std::fabs(q.b), -q.c / (2.0 * q.b)} : rising_root(q);
 }
 
 [[gnu::always_inline]] inline Sign larmor_through_segment(const Meeting& m, Crossing& c) {
-  const bool twice = m.same_side && !m.stands;
+  const bool twice = m.same_side && !m.on_wall;
   if (twice) {
     const double omega = m.flight.omega;
     if (m.left == (omega < 0.0)) return Sign::negative;  // inside the Larmor circle: it is convex
@@ -144,12 +144,12 @@ bool is_far(const PreparedCurve& w, Vector origin, double start) {
 }
 
 [[gnu::always_inline]] inline Sign larmor_through_circle(const Meeting& m, Crossing& c) {
-  if (m.same_side && !m.stands) {
+  if (m.same_side && !m.on_wall) {
     const Sign leaves = m.table.crossed_twice(m.flight, m.piece, m.origin);
     if (leaves != Sign::positive) return leaves;
   }
   cross_larmor(m, c);
-  return m.curve.closed && !m.stands ? m.is_cut(c) : Sign::positive;
+  return m.curve.closed && !m.on_wall ? m.is_cut(c) : Sign::positive;
 }
 
 inline Sign larmor_through_ellipse(const Meeting& m, Crossing& c) {
@@ -246,7 +246,7 @@ bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> 
   for (int k = 0; k < pieces; ++k) {
     const int piece = listed ? list[at(k)] : k;
     const PieceTable::PieceData& p = t_.data[at(piece)];
-    // At most two crossings, so the sides of its joints tell, but for a Larmor circle that may
+    // At most two crossings, so the sides of its joints tell, except for a Larmor circle that may
     // cross an ellipse four times.
     const bool told = !p.closed && !(larmor && p.kind == CurveKind::ellipse);
     if (told && left_[at(piece)] != 0 && left_[at(p.next)] == 0) continue;  // it enters
@@ -277,7 +277,7 @@ bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> 
   if (larmor && best >= 0) {
     const Meeting m = meeting(best);
     if (!t_.is_quartic(f, best)) {
-      if (!far_root_certain(first.quadratic, m.error(), m.stands)) return false;
+      if (!far_root_certain(first.quadratic, m.error(), m.on_wall)) return false;
     } else if (t_.options.filter_inflation != 1.0) {
       // Bounds are allowed to change where a quartic's root is looked for, not the number that is
       // found.
@@ -342,8 +342,8 @@ Ahead HitFinder::exact_next(const Flight& f, const std::vector<int>& pieces) con
     const bool same = t_.first_exit(f, ahead.piece, origin, 1.0, c) == Sign::positive;
     ahead.kappa = same ? c.root.kappa : first.kappa;
   } else {
-    const bool stands = PieceTable::stands_on(f, ahead.piece);
-    const Crossing c = t_.crossing_of(f, ahead.piece, origin, stands);
+    const bool on_wall = PieceTable::stands_on(f, ahead.piece);
+    const Crossing c = t_.crossing_of(f, ahead.piece, origin, on_wall);
     ahead.kappa = c.root.kappa;
     if (f.omega == 0.0) {
       const Quotient quotient = straight_time(c.quadratic, c.root.root);
@@ -357,17 +357,17 @@ Ahead HitFinder::exact_next(const Flight& f, const std::vector<int>& pieces) con
     FlightScale scale = origin.scale;
     scale.inflation = 1.0;
     const QuadraticError error =
-        quadratic_error(*t_.data[at(ahead.piece)].shape, origin.point, scale, stands);
+        quadratic_error(*t_.data[at(ahead.piece)].shape, origin.point, scale, on_wall);
     // So does one from so far that the sign of the discriminant is not known in doubles: the
     // filter, which asks it of closed curves, did not decide, and the hit would be anywhere on the
     // curve.
     const PreparedCurve& w = *t_.data[at(ahead.piece)].shape;
-    const bool hidden = w.closed && !stands && is_far(w, origin.point, norm_1(f.start)) &&
+    const bool hidden = w.closed && !on_wall && is_far(w, origin.point, norm_1(f.start)) &&
                         !(c.root.discriminant > discriminant_error(c.quadratic, error));
     const bool lost =
         hidden || (f.omega == 0.0 ? !(ahead.duration > 0.0) || !std::isfinite(ahead.duration)
                                   : !std::isfinite(ahead.kappa) ||
-                                        !far_root_certain(c.quadratic, error, stands));
+                                        !far_root_certain(c.quadratic, error, on_wall));
     if (lost) ahead.kappa = first.kappa;
     if (f.omega == 0.0 && !lost) return ahead;
   }

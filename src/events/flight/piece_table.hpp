@@ -78,7 +78,7 @@ struct PieceTable {
   Origin origin_of(const Flight& flight, int offset) const;
   /// The crossing that leaves through the piece's curve, without its error. Not for Larmor circles
   /// against ellipses.
-  Crossing crossing_of(const Flight& flight, int piece, const Origin& origin, bool stands) const;
+  Crossing crossing_of(const Flight& flight, int piece, const Origin& origin, bool on_wall) const;
   /// Larmor circle against an ellipse: its first exit through the piece, if any, with its error.
   Sign first_exit(const Flight& flight, int piece, const Origin& origin, double inflation,
                   Crossing& crossing) const;

@@ -121,9 +121,9 @@ class CrossingSearch {
     if (&from == &to) return nullptr;
     Knot* found = search(b, i, from, to, 0);
     if (splits_ <= most_splits) return found;
-    // Velocities that are not quite the derivative of the positions leave paths nearly along a wall
-    // unclear however short their parts are. So only what they err by across it counts, and parts
-    // of a thousandth are told by the positions at their ends.
+    // If velocity and position disagree slightly, a path almost parallel to the wall stays
+    // undecided at any depth. The second search uses the error normal to the wall alone, and stops
+    // after ten halvings, where the positions at the ends decide.
     last_depth_ = depth_for_all;
     return search(b, i, from, to, 0);
   }

@@ -135,9 +135,8 @@ void write_number(hid_t parent, const char* name, T value, Description descripti
   check(dataset.close(), file);
 }
 
-/// A dataset of fixed size, with HDF5's own checksums (Fletcher-32): no reader gets damaged rows,
-/// but for words of zeros that became words of ones, which it takes for the same. See
-/// checksums.hpp.
+/// A dataset of fixed size, with HDF5's own checksums: Fletcher-32 detects damaged rows, except
+/// 0x0000 in place of 0xFFFF and the reverse. See checksums.hpp.
 Handle create_fixed(hid_t parent, const char* name, hid_t type, std::size_t rows, Description,
                     const std::string& file);
 /// A dataset that grows by rows, with the same. Numbers are compressed besides (shuffle, deflate).

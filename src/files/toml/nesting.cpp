@@ -105,7 +105,7 @@ class Scan {
     in_value_ = true;
   }
 
-  // "…", '…', """…""", '''…'''; one line but for the last two. Ends at its last character.
+  // "…", '…', """…""", '''…'''; one line except for the last two. Ends at its last character.
   void skip_string(char quote) {
     const std::string three(3, quote);
     const bool lines = text_.substr(at_, 3) == three;

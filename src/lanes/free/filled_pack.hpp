@@ -58,7 +58,7 @@ struct FilledPack {
       pack.home_second[lane] += std::exchange(pack.cells[2 * lane + 1], 0);
     }
   }
-  /// A lane's last event, but for its wall, which is left as it is.
+  /// A lane's last event, except for its wall, which is left as it is.
   void last_event(int lane, State& s) const {
     s.position.x = pack.x[lane];
     s.position.y = pack.y[lane];

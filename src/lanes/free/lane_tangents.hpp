@@ -24,7 +24,7 @@ class LaneTangents {
   /// Between a trajectory and its lane.
   void put(FilledPack&, int lane) const;
   void take(FilledPack&, int lane) const;
-  /// After a sweep: tells of marks that were passed, then carries deviations over the hits.
+  /// After a sweep: reports marks that were passed, then carries deviations over the hits.
   void sweep(FilledPack&);
   /// The scalar engine has flown it to a hit; its own numbers are still those before.
   void hit(LaneTrajectory&, const State&) const;

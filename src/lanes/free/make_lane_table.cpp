@@ -134,7 +134,8 @@ bool discs_within_cell(const Table& table) {
   return true;
 }
 
-/// Is an edge as short as errors are? So are two of a hexagon that is a rectangle but for rounding.
+/// Is an edge as short as errors are? So are two of a hexagon that is a rectangle except for
+/// rounding.
 bool is_short(const geometry::Segment& edge) {
   const Vector along = edge.to - edge.from;
   return std::fabs(along.x) + std::fabs(along.y) <

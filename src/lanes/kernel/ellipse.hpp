@@ -49,18 +49,18 @@ CAROM_INLINE Cut cut_of_ellipse(const View& f, int i) {
 /// Time of the flight to an ellipse.
 template <Kind kind>
 CAROM_INLINE FractionOfTime time_to_ellipse(const View& f, const Vector& e, const MetEllipse& met,
-                                            const Real& orientation, const Mask& stands) {
+                                            const Real& orientation, const Mask& on_wall) {
   auto q = geometry::ellipse_quadratic(e, f.velocity, met.axis, met.along, met.across);
   // On the only wall there is: no root is taken.
   if constexpr (kind.alone) return {Real(2.0) * abs(q.b), q.c, Mask(true)};
   const Real discriminant = geometry::discriminant_of(q);
   Real root = sqrt(max(discriminant, Real(0.0)));
-  where(stands, q.a) = Real(0.0);
-  where(stands, root) = abs(q.b);
+  where(on_wall, q.a) = Real(0.0);
+  where(on_wall, root) = abs(q.b);
   const Real n = abs(q.b) + root;
   const Mask away = -orientation * q.b <= 0.0;
   return {choose(away, -orientation * q.a, n), choose(away, n, orientation * q.c),
-          stands || met.shrink * met.shrink * discriminant > f.roots};
+          on_wall || met.shrink * met.shrink * discriminant > f.roots};
 }
 
 /// The landing at a point, d seen from the centre.

@@ -54,7 +54,7 @@ CAROM_INLINE FlightEnd end_of_flight(const View& f, const Stages& stages, const 
           geometry::turned_by(f.omega * factors.along, f.omega * factors.across, f.velocity)};
 }
 
-/// That end put back on the wall, as PreparedCurve::arrive does but for the normal's sign, which
+/// That end put back on the wall, as PreparedCurve::arrive does except for the normal's sign, which
 /// reflections do not see.
 struct OnWall {
   Vector place, normal;

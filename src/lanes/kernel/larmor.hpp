@@ -124,15 +124,15 @@ struct Fraction {
 };
 /// The rising root of the quadratic of a segment or circle, whose sizes are powers of two.
 CAROM_INLINE Fraction rising_root(const View& f, const geometry::Quadratic<Real>& quadratic,
-                                  const Mask& stands, const Real& length) {
+                                  const Mask& on_wall, const Real& length) {
   const auto& [a, b, c] = quadratic;
   const Real discriminant = geometry::discriminant_of(quadratic);
   const Real root = sqrt(max(discriminant, Real(0.0)));
   const Real n = abs(b) + root;
   const Mask falls = b <= 0.0;
   const Real size = length * f.pace;
-  const Mask decided = (stands && b > sign_margin * size) ||
-                       (!stands && discriminant > (sign_margin * size) * size &&
+  const Mask decided = (on_wall && b > sign_margin * size) ||
+                       (!on_wall && discriminant > (sign_margin * size) * size &&
                         (!falls || abs(a) > (sign_margin * f.table.size) * length));
   return {choose(falls, n, -c), choose(falls, a, n), decided, root};
 }
@@ -148,8 +148,8 @@ class EarliestOnCircle {
   CAROM_INLINE void doubt(const Mask& where_not) { decided_ = decided_ && !where_not; }
   /// `length`: the size of the quadratic's leading coefficient in sizes.
   CAROM_INLINE void add(int i, const Mask& leaves, const geometry::Quadratic<Real>& quadratic,
-                        const Mask& stands, double length) {
-    const Fraction r = rising_root(f_, quadratic, stands, Real(length));
+                        const Mask& on_wall, double length) {
+    const Fraction r = rising_root(f_, quadratic, on_wall, Real(length));
     doubt(leaves && !r.decided);
     // Both brought to the sizes pace and size by powers of two, the divisor positive.
     const Real falling = Real(1.0 / length), rising = f_.table.size / (length * f_.pace);
@@ -206,18 +206,18 @@ class EarliestOnCircle {
 /// The quadratic of a piece for flights from this start.
 CAROM_INLINE geometry::Quadratic<Real> quadratic_of_segment(const View& f, const Vector& point,
                                                             const Vector& tangent,
-                                                            const Mask& stands) {
+                                                            const Mask& on_wall) {
   Vector e = f.origin - point;
-  where(stands, e.x) = Real(0.0);
-  where(stands, e.y) = Real(0.0);
+  where(on_wall, e.x) = Real(0.0);
+  where(on_wall, e.y) = Real(0.0);
   return geometry::line_quadratic(e, tangent, f.velocity, f.omega, Real(0.5));
 }
 CAROM_INLINE geometry::Quadratic<Real> quadratic_of_circle(const View& f, const Vector& point,
                                                            const Real& square,
                                                            const Real& orientation,
-                                                           const Mask& stands) {
+                                                           const Mask& on_wall) {
   const Vector e = f.origin - point;
-  const auto q = geometry::circle_quadratic(e, choose(stands, dot(e, e), square), f.velocity,
+  const auto q = geometry::circle_quadratic(e, choose(on_wall, dot(e, e), square), f.velocity,
                                             f.square_speed, f.omega, Real(0.5));
   return {-orientation * q.a, -orientation * q.b, -orientation * q.c};
 }
@@ -237,10 +237,10 @@ CAROM_INLINE Choice first_of_all_by_circle(const View& f) {
     if (!closed) a = start = joint_at(f, z, first, least);
     for (int i = first; i <= last; ++i) {
       const Real piece(counted[i]);
-      const Mask stands = f.start_wall == Real(wall[i]), own = f.start_piece == piece;
+      const Mask on_wall = f.start_wall == Real(wall[i]), own = f.start_piece == piece;
       if constexpr (kind.ellipses) {
         if (t.ellipses.of[i]) {
-          if (i == first || wall[i] != wall[i - 1]) exit.begin(best, f, i, stands);
+          if (i == first || wall[i] != wall[i - 1]) exit.begin(best, f, i, on_wall);
           exit.add(best, f, i);
           if (i == last || wall[i] != wall[i + 1]) exit.end(best);
           if (!closed && i != last) a = joint_at(f, z, i + 1, least);
@@ -253,13 +253,13 @@ CAROM_INLINE Choice first_of_all_by_circle(const View& f) {
       if (closed) {
         const Vector c{z.centre.x - z.rate * t.point_x[i], z.centre.y - z.rate * t.point_y[i]};
         const Real cut = cut_of_circle(f, z, i, sqrt(dot(c, c)));
-        best.doubt(!stands && abs(cut) <= z.lengths);
-        leaves = stands || cut > 0.0;
+        best.doubt(!on_wall && abs(cut) <= z.lengths);
+        leaves = on_wall || cut > 0.0;
       } else {
         b = i == last ? start : joint_at(f, z, i + 1, least);
         const Mask out = t.clockwise ? a.inside && !b.inside : b.inside && !a.inside;
         const Mask same = a.inside == b.inside,
-                   open = bent ? same && !stands : same && !stands && !a.inside;
+                   open = bent ? same && !on_wall : same && !on_wall && !a.inside;
         const Real cut = bent ? cut_of_arc(f, z, i, a.inside) : cut_of_segment(f, z, i, a);
         best.doubt(open && abs(cut) <= (bent ? z.lengths : z.squares));
         leaves = out || (same && own) || (open && cut > 0.0);
@@ -268,15 +268,15 @@ CAROM_INLINE Choice first_of_all_by_circle(const View& f) {
       if (!any_of(leaves)) continue;
       const Vector point{Real(t.point_x[i]), Real(t.point_y[i])};
       if (bent) {
-        best.add(
-            i, leaves,
-            quadratic_of_circle(f, point, Real(t.second_number[i]), Real(t.orientation[i]), stands),
-            stands, t.size);
+        best.add(i, leaves,
+                 quadratic_of_circle(f, point, Real(t.second_number[i]), Real(t.orientation[i]),
+                                     on_wall),
+                 on_wall, t.size);
       } else {
         best.add(i, leaves,
-                 quadratic_of_segment(f, point,
-                                      {Real(-t.second_number[i]), Real(t.first_number[i])}, stands),
-                 stands, 1.0);
+                 quadratic_of_segment(
+                     f, point, {Real(-t.second_number[i]), Real(t.first_number[i])}, on_wall),
+                 on_wall, 1.0);
       }
     }
   }
@@ -322,9 +322,9 @@ CAROM_INLINE Where meet_by_circle(const View& f, const Met& met) {
   geometry::Quadratic<Real> quadratic;
   Real length(1.0);
   if constexpr (kind.segments)
-    quadratic = quadratic_of_segment(f, met.point, {-met.second, met.first}, met.stands);
+    quadratic = quadratic_of_segment(f, met.point, {-met.second, met.first}, met.on_wall);
   if constexpr (kind.circles) {
-    const auto other = quadratic_of_circle(f, met.point, met.second, met.orientation, met.stands);
+    const auto other = quadratic_of_circle(f, met.point, met.second, met.orientation, met.on_wall);
     if constexpr (kind.segments) {
       quadratic = {choose(met.bent, other.a, quadratic.a), choose(met.bent, other.b, quadratic.b),
                    choose(met.bent, other.c, quadratic.c)};
@@ -334,7 +334,7 @@ CAROM_INLINE Where meet_by_circle(const View& f, const Met& met) {
       length = Real(f.table.size);
     }
   }
-  const Fraction r = rising_root(f, quadratic, met.stands, length);
+  const Fraction r = rising_root(f, quadratic, met.on_wall, length);
   return {r.p / r.q, r.decided};
 }
 

@@ -43,12 +43,12 @@ struct EllipseInField {
 
 CAROM_INLINE geometry::Quartic<Real> quartic_of_ellipse(const View& f,
                                                         const EllipseInField& ellipse,
-                                                        const Mask& stands) {
+                                                        const Mask& on_wall) {
   const auto image = [&](const Vector& x) {
     return Vector{dot(ellipse.first, x), dot(ellipse.second, x)};
   };
   const Vector e = image(f.origin - ellipse.centre);
-  auto q = geometry::ellipse_quartic(e, choose(stands, dot(e, e), Real(1.0)), image(f.velocity),
+  auto q = geometry::ellipse_quartic(e, choose(on_wall, dot(e, e), Real(1.0)), image(f.velocity),
                                      image(geometry::right(f.velocity)), f.omega, Real(0.5));
   for (Real& x : q.q) x = -ellipse.orientation * x;
   return q;
@@ -132,15 +132,16 @@ CAROM_INLINE RootOnEllipse root_to_ellipse(const View& f, const geometry::Quarti
 
 /// From wherever the particles are.
 CAROM_INLINE RootOnEllipse root_on_ellipse(const View& f, const EllipseInField& ellipse,
-                                           const Mask& stands) {
-  const auto q = quartic_of_ellipse(f, ellipse, stands);
-  if (!any_of(!stands)) return root_from_ellipse(f, q, ellipse.stretch);
+                                           const Mask& on_wall) {
+  const auto q = quartic_of_ellipse(f, ellipse, on_wall);
+  if (!any_of(!on_wall)) return root_from_ellipse(f, q, ellipse.stretch);
   const RootOnEllipse to = root_to_ellipse(f, q, ellipse.stretch);
-  if (!any_of(stands)) return to;
+  if (!any_of(on_wall)) return to;
   const RootOnEllipse from = root_from_ellipse(f, q, ellipse.stretch);
-  return {choose(stands, from.kappa, to.kappa), (stands && from.certain) || (!stands && to.certain),
-          (stands && from.only) || (!stands && to.only), !stands && to.none,
-          choose(stands, from.spread, to.spread)};
+  return {choose(on_wall, from.kappa, to.kappa),
+          (on_wall && from.certain) || (!on_wall && to.certain),
+          (on_wall && from.only) || (!on_wall && to.only), !on_wall && to.none,
+          choose(on_wall, from.spread, to.spread)};
 }
 CAROM_INLINE EllipseInField ellipse_in_field(const LaneTable& t, int i) {
   const auto& all = t.ellipses;
@@ -155,9 +156,9 @@ CAROM_INLINE EllipseInField ellipse_in_field(const LaneTable& t, int i) {
 class ExitThroughEllipse {
  public:
   template <class Earliest>
-  CAROM_INLINE void begin(Earliest& best, const View& f, int i, const Mask& stands) {
+  CAROM_INLINE void begin(Earliest& best, const View& f, int i, const Mask& on_wall) {
     const LaneTable& t = f.table;
-    root_ = root_on_ellipse(f, ellipse_in_field(t, i), stands);
+    root_ = root_on_ellipse(f, ellipse_in_field(t, i), on_wall);
     left_ = root_.certain && !root_.only;
     best.doubt(!root_.certain && !root_.none);
     if (t.closed[i]) return;

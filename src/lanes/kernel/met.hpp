@@ -10,7 +10,7 @@ namespace {
 struct Met {
   Vector point;
   Real first, second, orientation, strength;
-  Mask bent, stands;
+  Mask bent, on_wall;
   MetEllipse ellipse{};
 };
 
@@ -37,7 +37,7 @@ CAROM_INLINE Met met_by(const View& f, const Real& piece, const Mask* bent = nul
   if constexpr (kind.ellipses) met.ellipse = ellipse_met_by<kind>(t, piece);
   if constexpr (!kind.alone && !(kind.cells && kind.single) &&
                 (kind.circles || kind.ellipses || kind.convex || kind.larmor))
-    met.stands = (t.divided ? of(t.wall) : piece) == f.start_wall;
+    met.on_wall = (t.divided ? of(t.wall) : piece) == f.start_wall;
   return met;
 }
 

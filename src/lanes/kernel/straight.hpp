@@ -210,22 +210,23 @@ CAROM_INLINE FractionOfTime meet_by_line(const View& f, const Met& met) {
     Mask away(true);
     if constexpr (kind.circles) {
       const Real discriminant = fused_product(gap, f.square_speed, b * b);
-      where(met.stands, gap) = Real(0.0);
+      where(met.on_wall, gap) = Real(0.0);
       // In a convex table the line between two joints cuts the arc.
       Real root = sqrt(kind.convex || kind.next_disc ? discriminant : max(discriminant, Real(0.0)));
-      where(met.stands, root) = n;
+      where(met.on_wall, root) = n;
       if constexpr (kind.segments) where(!met.bent, root) = Real(0.0);
       n = n + root;
       away = met.orientation * b >= 0.0;
       // Discs of a lattice that were chosen are cut and lie ahead.
       if constexpr (kind.next_disc) return {-gap, n, Mask(true)};
-      if constexpr (!kind.convex) decided = met.stands || discriminant > f.roots || !met.bent;
+      if constexpr (!kind.convex) decided = met.on_wall || discriminant > f.roots || !met.bent;
     }
     time = choose(away, met.orientation * gap, n);
     unit = choose(away, n, met.orientation * f.square_speed);
   }
   if constexpr (kind.ellipses) {
-    const FractionOfTime to = time_to_ellipse<kind>(f, e, met.ellipse, met.orientation, met.stands);
+    const FractionOfTime to =
+        time_to_ellipse<kind>(f, e, met.ellipse, met.orientation, met.on_wall);
     const Mask is = met.ellipse.is;
     if constexpr (kind.segments || kind.circles) {
       time = choose(is, to.time, time);

@@ -55,7 +55,7 @@ class SoftEngine {
 
   void set_kind(const Particle&);
   void limit_hits(std::uint64_t hits) { limit_ = hits; }
-  /// Is told of each hit; false: the track ends there, as one that survives.
+  /// Called with each hit; false: the track ends there, as one that survives.
   void report_hits(std::function<bool(const SoftTrack&)> hit) { reported_hit_ = std::move(hit); }
   bool has_walls() const { return !surroundings_.barriers.empty(); }
   double step() const { return step_; }

@@ -241,8 +241,8 @@ constexpr Number reflection_factor(const BasicVector<Number>& v, const BasicVect
   return Number(2) * k * fused_dot(v, n) / n2;
 }
 /// The same for a circle, n = d from its centre and `step` its step_of_length, without a division:
-/// 2/|d|^2 is `strength` (1 + 2 step) but for the square of 2 step, where strength is 2/r^2 of the
-/// r of its weight to the last digit.
+/// 2/|d|^2 is `strength` (1 + 2 step) except for the square of 2 step, where strength is 2/r^2 of
+/// the r of its weight to the last digit.
 template <class Number>
 constexpr Number reflection_factor_on_circle(const BasicVector<Number>& v,
                                              const BasicVector<Number>& d, const Number& strength,

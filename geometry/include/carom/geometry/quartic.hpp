@@ -43,6 +43,6 @@ double likely_root(const Quartic<double>& f, int degree);
 /// Coefficients' errors for ellipse_quartic; as ellipse_error. `stands`: the start lies on the
 /// curve.
 QuarticError quartic_error(const FlightScale& f, double e1, double centre_error, double row,
-                           bool stands);
+                           bool on_wall);
 
 }  // namespace carom::geometry

@@ -44,7 +44,7 @@ struct SurvivalCounts : FateCounts, GoneCounts {
   /// were gone after more than a hits and at most b. One that is gone after one hit or none is in
   /// no bin.
   EscapeTimes gone_after;
-  /// The fewest hits of one that is still there at the end, but for pinned ones.
+  /// The fewest hits of one that is still there at the end, except for pinned ones.
   std::uint64_t fewest_hits_of_survivor = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t trajectories = 0, collisions = 0;
   std::uint64_t contacts = 0;   ///< of hard discs, each pair once; set by the ensemble

@@ -1,4 +1,4 @@
-#include "analyses/orbits/recurrences.hpp"
+#include "analyses/orbits/close_returns.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +40,7 @@ std::vector<int> least_rotation(const Chain& chain) {
 // Keeps the hits of trajectories under way, and the closest recurrences of those that have ended.
 class Recurrences : public Listener {
  public:
-  Recurrences(const Boundary& boundary, const RecurrencePlan& plan)
+  Recurrences(const Boundary& boundary, const CloseReturnPlan& plan)
       : boundary_(boundary), plan_(plan), of_length_(plan.most_hits + 1) {}
 
   void begin(const Trajectory& t) override {
@@ -104,7 +104,7 @@ class Recurrences : public Listener {
   }
 
   const Boundary& boundary_;
-  const RecurrencePlan& plan_;
+  const CloseReturnPlan& plan_;
   std::uint64_t ended_ = 0;
   std::vector<std::vector<State>> states_;  ///< by slot
   std::vector<std::map<std::vector<int>, std::vector<Recurrence>>> of_length_;
@@ -112,8 +112,9 @@ class Recurrences : public Listener {
 
 }  // namespace
 
-std::vector<Chain> recurrences(const System& system, const Boundary& boundary,
-                               const RecurrencePlan& plan, const std::function<bool()>& stopped) {
+std::vector<Chain> close_returns(const System& system, const Boundary& boundary,
+                                 const CloseReturnPlan& plan,
+                                 const std::function<bool()>& stopped) {
   System from_walls = system;
   from_walls.initial = {};
   from_walls.initial.kind = InitialCondition::Kind::boundary;

@@ -1,4 +1,4 @@
-#include "orbits/words.hpp"
+#include "orbits/itinerary.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -14,8 +14,8 @@ namespace carom::orbits {
 bool for_each_word(int letters, std::size_t length,
                    const std::function<bool(const std::vector<int>&)>& each);
 
-/// The chain from disc to disc that such a word begins with: each hit on its disc's side towards
-/// the neighbours. With a field each flight is the shorter arc; empty where no arc is so long.
+/// Initial guess for an itinerary: one hit per disc, on the side facing its neighbours. With a
+/// field each flight is the shorter arc; empty where no arc is so long.
 Chain chain_of_word(const Boundary&, const std::vector<int>& word);
 
 }  // namespace carom::orbits

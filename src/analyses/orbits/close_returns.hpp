@@ -10,7 +10,7 @@
 
 namespace carom::analyses {
 
-struct RecurrencePlan {
+struct CloseReturnPlan {
   std::size_t fewest_hits = 2, most_hits = 0;
   std::uint64_t starts = 0;
   std::uint64_t tries = 0;  ///< chains for each number of hits
@@ -19,7 +19,8 @@ struct RecurrencePlan {
 
 /// The closest recurrences of trajectories that start on the walls with the cosine law, after so
 /// many hits. Where they go round different walls, all sequences of walls have their turn.
-std::vector<orbits::Chain> recurrences(const System&, const orbits::Boundary&,
-                                       const RecurrencePlan&, const std::function<bool()>& stopped);
+std::vector<orbits::Chain> close_returns(const System&, const orbits::Boundary&,
+                                         const CloseReturnPlan&,
+                                         const std::function<bool()>& stopped);
 
 }  // namespace carom::analyses

@@ -1,4 +1,4 @@
-#include "certify/enclosure/pilot.hpp"
+#include "certify/enclosure/trial_run.hpp"
 
 #include <algorithm>
 #include <vector>

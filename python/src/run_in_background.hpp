@@ -26,7 +26,7 @@ struct Course {
 /// work: what it has done is kept, and the error is returned to be raised (null: none). Errors of
 /// the work itself are thrown.
 template <class Work>
-std::exception_ptr run_beside(Course& course, const pybind11::object& progress, Work work) {
+std::exception_ptr run_in_background(Course& course, const pybind11::object& progress, Work work) {
   using namespace std::chrono_literals;
   std::mutex mutex;
   std::condition_variable changed;
