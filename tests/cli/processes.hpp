@@ -11,7 +11,8 @@ inline bool has_mpi() { return std::system("mpirun --version >/dev/null 2>&1") =
 /// Goes before a command; 0: without mpirun.
 inline std::string ranks(int n) {
   return n == 0 ? ""
-                : "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun "
+                : "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+                  "ASAN_OPTIONS=detect_leaks=0 mpirun "
                   "--oversubscribe --bind-to none -n " +
                       std::to_string(n) + " ";
 }

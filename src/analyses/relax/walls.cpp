@@ -95,6 +95,7 @@ bool turn_corners(const Landscape& landscape, Sites& sites) {
   if (std::all_of(beyond.begin(), beyond.end(), [](int end) { return end == 0; })) return false;
   const std::vector<Vector> force = landscape.forces(sites);
   for (std::size_t i = 0; i < sites.size(); ++i) {
+    if (beyond[i] == 0) continue;  // it may be on no wall
     Site& s = sites[i];
     const double forward = static_cast<double>(beyond[i]);
     if (!(forward * dot(force[i], landscape.tangent(s)) > 0.0)) continue;

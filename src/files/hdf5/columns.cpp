@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <future>
+#include <thread>
 
 namespace carom::files::hdf5 {
 
@@ -25,14 +27,36 @@ void Columns::open(Handle dataset, hid_t type, const void* usual) {
 
 void Columns::flush() {
   if (pending_ == 0) return;
+  const bool one_chunk = pending_ == chunk_ && rows_ % chunk_ == 0;
+  const auto prepare = [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      Column& column = columns_[i];
+      const std::span<const std::uint8_t> values(column.values.data(), pending_ * column.size);
+      if (whole_) column.sum = crc32(values.data(), values.size(), column.sum);
+      if (one_chunk && column.packed && !is_usual(column, values))
+        column.chunk = column.packer.pack(values, column.size);
+    }
+  };
+  // Packing takes half of a run's time. Columns are independent, so two threads share it; OpenMP's
+  // would wait for the next batch awake.
+  const std::size_t half =
+      one_chunk && std::thread::hardware_concurrency() > 1 ? columns_.size() / 2 : 0;
+  std::future<void> others;
+  if (half > 0) others = std::async(std::launch::async, prepare, 0, half);
+  prepare(half, columns_.size());
+  if (half > 0) others.get();
   for (Column& column : columns_) {
     write(column);
+    column.chunk.reset();
     check(H5Dflush(column.dataset.get()) >= 0, file_);
-    if (whole_) column.sum = crc32(column.values.data(), pending_ * column.size, column.sum);
   }
   rows_ += pending_;
   pending_ = 0;
   until_full_ = batch() - rows_ % batch();
+}
+
+bool Columns::is_usual(const Column& column, std::span<const std::uint8_t> values) {
+  return std::memcmp(values.data(), column.usual.data(), values.size()) == 0;
 }
 
 // Chunk by chunk. A chunk that is begun here and holds nothing but usual values need not be stored.
@@ -43,13 +67,13 @@ void Columns::write(Column& column) {
     const std::size_t count = std::min(chunk_ - in_chunk, pending_ - row);
     const std::uint8_t* values = column.values.data() + row * column.size;
     const bool begins = in_chunk == 0;
-    if (begins && std::memcmp(values, column.usual.data(), count * column.size) == 0) {
-      row += count;
-      continue;
-    }
-    if (begins && count == chunk_ && column.packed)
+    if (column.chunk)
+      write_packed_chunk(column.dataset.get(), rows_ + row, *column.chunk, file_);
+    else if (begins && is_usual(column, {values, count * column.size}))
+      ;  // the dataset's fill value says it
+    else if (begins && count == chunk_ && column.packed)
       write_packed_chunk(column.dataset.get(), rows_ + row,
-                         packer_.pack({values, count * column.size}, column.size), file_);
+                         column.packer.pack({values, count * column.size}, column.size), file_);
     else
       write_rows(column.dataset.get(), column.type, rows_ + row, count, values, file_);
     row += count;

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,10 +62,13 @@ class Columns {
     std::vector<std::uint8_t> usual;   ///< a chunk of the usual value
     std::vector<std::uint8_t> values;  ///< of the rows that are pending
     std::uint32_t sum = 0;             ///< of the rows that were written
+    ChunkPacker packer{};
+    std::optional<ChunkPacker::Packed> chunk = {};  ///< all pending rows, packed
   };
 
   hid_t take(Handle dataset, hid_t type, const void* usual);
   void open(Handle dataset, hid_t type, const void* usual);
+  static bool is_usual(const Column&, std::span<const std::uint8_t> values);
   void write(Column& column);
   std::size_t batch() const { return chunk_ < short_batch ? short_batch : chunk_; }
   template <class T>
@@ -73,7 +78,6 @@ class Columns {
 
   std::string file_;
   std::vector<Column> columns_;
-  ChunkPacker packer_;
   std::size_t chunk_ = short_chunk;
   std::size_t rows_ = 0, pending_ = 0;
   std::size_t until_full_ = batch();  ///< pending rows that end a batch
