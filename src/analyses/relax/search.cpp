@@ -280,7 +280,8 @@ class Descent {
   /// Walls hold all that is outside. Is anything?
   bool hold(const Sites& before, Sites& now) const {
     if (landscape_.frames().empty()) return false;
-    return keep_inside(landscape_, world_, before, now) | turn_corners(landscape_, now);
+    const bool kept = keep_inside(landscape_, world_, before, now);
+    return turn_corners(landscape_, now) || kept;
   }
 
   /// No: particles left the table on the last steps, or a wall does not hold one any more. Then
