@@ -17,8 +17,8 @@
 #include "cli/commands/ensemble_job.hpp"
 #include "cli/commands/sweep.hpp"
 #include "cli/common.hpp"
-#include "cli/mpi_ranks.hpp"
 #include "cli/picture.hpp"
+#include "cli/ranks.hpp"
 
 namespace {
 
@@ -73,6 +73,9 @@ int main(int argc, char** argv) {
   using namespace carom::cli;
   reserve_standard_streams();
   try {
+#ifdef CAROM_MPI
+    start_ranks_by(mpi_ranks);
+#endif
     const bool silent = rank_by_environment() > 0;
     if (silent && !keep_silent()) return bad_input;
     std::signal(SIGPIPE, SIG_IGN);  // a closed pipe shows where it is written to

@@ -1,50 +1,17 @@
-#include "cli/mpi_ranks.hpp"
-
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <unistd.h>
-
-#include <cstdio>
-#include <cstdlib>
-
-#include "carom/base/error.hpp"
-
-#ifdef CAROM_MPI
+// Ranks by MPI: a part of the program alone.
 #include <mpi.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstddef>
+#include <cstdio>
 #include <thread>
-#endif
+
+#include "cli/ranks.hpp"
 
 namespace carom::cli {
 
 namespace {
-
-int real_errors = -1;  // standard error of a process that keeps silent
-
-// The rank that Open MPI, PMIx (srun) or MPICH gave this process; null if none of them started it.
-const char* rank_in_environment() {
-  for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
-    if (const char* text = std::getenv(name)) return text;
-  return nullptr;
-}
-
-int number_in_environment() {
-  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
-    if (const char* text = std::getenv(name)) return std::atoi(text);
-  return 1;
-}
-// Otherwise each process would run the whole by itself, into one file.
-void refuse_strangers(int known) {
-  if (number_in_environment() > known)
-    throw InputError(fmt::format(
-        "{} processes were started together, but this carom knows {} of them (expected the mpirun "
-        "that it was built with, or one process)",
-        number_in_environment(), known));
-}
-
-#ifdef CAROM_MPI
 
 class MpiRanks : public Ranks {
  public:
@@ -88,34 +55,11 @@ class MpiRanks : public Ranks {
   bool gives_up_ = false;
 };
 
-#endif
-
 }  // namespace
 
-int rank_by_environment() {
-  const char* text = rank_in_environment();
-  return text ? std::atoi(text) : 0;
-}
-
-bool keep_silent() {
-  real_errors = ::fcntl(2, F_DUPFD_CLOEXEC, 3);
-  return std::freopen("/dev/null", "w", stdout) && std::freopen("/dev/null", "w", stderr);
-}
-
-void speak() {
-  if (real_errors >= 0) ::dup2(real_errors, 2);
-}
-
-Ranks* start_ranks() {
-#ifdef CAROM_MPI
-  // Without this, a process that was started alone would look for partners for a third of a second.
-  if (rank_in_environment()) {
-    static MpiRanks ranks;
-    return ranks.size() > 1 ? &ranks : nullptr;
-  }
-#endif
-  refuse_strangers(1);
-  return nullptr;
+Ranks& mpi_ranks() {
+  static MpiRanks ranks;
+  return ranks;
 }
 
 }  // namespace carom::cli

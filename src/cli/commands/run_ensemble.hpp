@@ -14,7 +14,7 @@
 #include "carom/files/ensembles.hpp"
 #include "cli/commands/ensemble_job.hpp"
 #include "cli/common.hpp"
-#include "cli/mpi_ranks.hpp"
+#include "cli/ranks.hpp"
 #include "cli/reports/ensemble_reports.hpp"
 #include "files/progress.hpp"
 

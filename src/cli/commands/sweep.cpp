@@ -16,7 +16,7 @@
 #include "cli/commands/run_shared.hpp"
 #include "cli/commands/sweep_plan.hpp"
 #include "cli/common.hpp"
-#include "cli/mpi_ranks.hpp"
+#include "cli/ranks.hpp"
 #include "cli/reports/sweep_report.hpp"
 #include "cli/temporary_folder.hpp"
 #include "files/checkpoint/rank_parts.hpp"

@@ -27,9 +27,17 @@ int rank_by_environment();
 /// say on standard error is seen. False: their streams cannot be closed.
 bool keep_silent();
 void speak();
+/// Called once by the program, which alone is linked with MPI: what starts it.
+void start_ranks_by(Ranks& (*start)());
 /// Starts MPI; null where this process was started alone, or built without MPI. MPI ends with the
 /// process, after its last word: mpirun ends all processes as soon as one of them has ended with an
 /// error.
 Ranks* start_ranks();
+
+/// Throws InputError where more processes were started together than `known` ones: each would run
+/// the whole by itself, into one file.
+void refuse_strangers(int known);
+/// The ranks that MPI has started (mpi_ranks.cpp).
+Ranks& mpi_ranks();
 
 }  // namespace carom::cli
