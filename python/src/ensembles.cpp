@@ -109,8 +109,6 @@ class OutcomeOf final : public EnsembleOutcome {
   std::shared_ptr<const std::vector<Row>> rows_;  ///< null: not asked for
 };
 
-const char* status_of(bool complete) { return complete ? "completed" : "interrupted"; }
-
 // Keeps the records of blocks as they come.
 template <class Result>
 class Records : public EnsembleJournal<Result> {
@@ -147,7 +145,7 @@ std::pair<OutcomePointer, std::exception_ptr> fly(const std::shared_ptr<Loaded>&
     };
   const std::exception_ptr interruption =
       run_in_background(course, progress, [&] { outcome->result = flown(system, how); });
-  outcome->status = status_of(outcome->result.complete);
+  outcome->status = cli::status_of(outcome->result.complete);
   std::sort(records.all.begin(), records.all.end(),
             [](const auto& a, const auto& b) { return a.index < b.index; });
   if (how.journal) outcome->keep(std::move(records.all));

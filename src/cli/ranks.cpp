@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 
 #include "carom/base/error.hpp"
 
@@ -51,6 +52,20 @@ bool keep_silent() {
 
 void speak() {
   if (real_errors >= 0) ::dup2(real_errors, 2);
+}
+
+std::string word_of_first(Ranks* ranks, const std::function<std::string()>& prepare) {
+  if (!ranks) return prepare();
+  std::string word;
+  std::exception_ptr problem;
+  try {
+    if (ranks->rank() == 0) word = prepare();
+  } catch (...) {
+    problem = std::current_exception();
+  }
+  word = ranks->tell(word);
+  if (problem) std::rethrow_exception(problem);
+  return word;
 }
 
 void start_ranks_by(Ranks& (*start)()) { starter = start; }

@@ -1,6 +1,7 @@
 // The processes that mpirun or srun started together.
 #pragma once
 
+#include <functional>
 #include <string>
 
 namespace carom::cli {
@@ -33,6 +34,10 @@ void start_ranks_by(Ranks& (*start)());
 /// process, after its last word: mpirun ends all processes as soon as one of them has ended with an
 /// error.
 Ranks* start_ranks();
+
+/// Rank 0 calls `prepare`; all return the word that it gives. Where it throws, rank 0 does, and the
+/// others return "". `ranks` null: this process is alone.
+std::string word_of_first(Ranks* ranks, const std::function<std::string()>& prepare);
 
 /// Throws InputError where more processes were started together than `known` ones: each would run
 /// the whole by itself, into one file.

@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 
 #include "carom/engines/engine.hpp"
+#include "carom/engines/trajectories.hpp"
 #include "carom/starts/injection.hpp"
 #include "engines/ensemble_run.hpp"
 #include "engines/first_reports.hpp"
@@ -56,5 +58,30 @@ class EnsembleListener : public Listener {
  private:
   DecisionCounts decisions_;  ///< that were added
 };
+
+/// Flies an ensemble whose trajectories are drawn block by block: on each thread an engine, and the
+/// listener that `listen(engine, thread)` makes. `starts`: the system that they are drawn from.
+template <class Result, class Listen>
+Result fly_blocks(const System& system, const System& starts,
+                  const EnsembleOptions<Result>& options, Result nothing, EngineOptions how,
+                  Listen listen) {
+  check_start(starts, options.interrupted);
+  const Sampler sampler(starts, options.interrupted);
+  const World world = make_world(system, options.decisions);  // threads share its table
+  how.lanes = options.lanes;
+  how.like = &world;
+  EnsembleRun<Result> run(system, options, std::move(nothing));
+  if (why_one_by_one(system, how).empty()) run.lanes = options.lanes;
+  return run.run([&](typename EnsembleRun<Result>::Thread& thread) {
+    const auto engine = make_engine(system, how);
+    auto listener = listen(*engine, thread);
+    const std::function<bool()> stopped = [&] { return thread.stopped(); };
+    DrawnStarts drawn(sampler, [&](TrajectoryRange& block) {
+      std::uint64_t number = 0;
+      return !stopped() && thread.claim(block, number);
+    });
+    engine->run(drawn, listener, stopped);
+  });
+}
 
 }  // namespace carom::engines

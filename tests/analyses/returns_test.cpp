@@ -72,6 +72,35 @@ TEST(Returns, PartsAddUpAndArchivesReadBack) {
     EXPECT_EQ(a.hits.bins[i].count, b.hits.bins[i].count);
 }
 
+// A wall that nobody comes to: nothing is estimated, and nothing is invented.
+TEST(Returns, WithoutExcursionsThereAreNoNumbers) {
+  const System system = loaded("stadium", "top", 1e-3, 10).system;
+  const Returns returns = returns_of(run_returns(system).sums, 5e-4);
+  EXPECT_EQ(returns.excursions, 0u);
+  EXPECT_TRUE(std::isnan(returns.mean_time.value) && std::isnan(returns.mean_time.error));
+  EXPECT_TRUE(returns.times.bins.empty() && returns.hits.bins.empty());
+}
+
+// Shares of bins add up to all that was seen, and each begins where the one before ends.
+TEST(Returns, BinsAreComplete) {
+  const System system = loaded("mushroom", "stem_bottom", 100, 400).system;
+  const Returns returns = returns_of(run_returns(system).sums, 50);
+  for (const Distribution* d : {&returns.times, &returns.hits}) {
+    double share = 0.0;
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < d->bins.size(); ++i) {
+      const DistributionBin& bin = d->bins[i];
+      if (i > 0) {
+        EXPECT_EQ(bin.from, d->bins[i - 1].to);
+      }
+      share += bin.density.value * (bin.to - bin.from);
+      count += bin.count;
+    }
+    EXPECT_EQ(count + d->longer, returns.excursions);
+    EXPECT_NEAR(share, static_cast<double>(count) / static_cast<double>(returns.excursions), 1e-12);
+  }
+}
+
 TEST(Returns, WhatCannotReturnIsRefused) {
   System open = loaded("stadium", "top", 50, 10).system;
   open.section.wall = -1;

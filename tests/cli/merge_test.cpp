@@ -207,6 +207,18 @@ TEST(Ranks, AllEndWhenOneHasNoDiskAndSayWhyOnce) {
   }
 }
 
+// A value that cannot be kept ends the sweep of all ranks, also of those that wait for the next
+// one.
+TEST(Ranks, AllEndWhenASweepHasNoDisk) {
+  if (!has_mpi()) GTEST_SKIP() << "no mpirun";
+  const Shell shell;
+  const Outcome o = with_limit(shell, 0, "-f 40",
+                               "$carom escape stadium --trajectories 2000 --t-max 20 --quiet "
+                               "--threads 1 --sweep run.seed=lin:1:8:8 -o a.h5");
+  EXPECT_EQ(o.status, 1) << o.err;
+  EXPECT_EQ(count_of("carom: cannot write 'a.h5", o.err), 1) << o.err;
+}
+
 // Without an archive the shares are in the first rank's folder for temporary files.
 TEST(Ranks, AllEndWhenThereIsNoTemporaryFolder) {
   if (!has_mpi()) GTEST_SKIP() << "no mpirun";

@@ -2,6 +2,7 @@
 // computed, and what was computed survives.
 #include <gtest/gtest.h>
 
+#include "archive_contents.hpp"
 #include "program.hpp"
 
 namespace carom {
@@ -28,6 +29,25 @@ std::vector<std::string> digests_of(const std::string& json) {
   std::vector<std::string> digests;
   for (const std::string& row : rows_of(json)) digests.push_back(digest_in(row));
   return digests;
+}
+
+// Any reader of HDF5 finds in it what the run of a value alone would have stored.
+TEST(Sweep, ValuesAreGroupsAsTheirArchives) {
+  const Shell shell;
+  ASSERT_EQ(shell(escape + sweep + "-o sweep.h5").status, 0);
+  ASSERT_EQ(shell(escape + "--set field.B=1 -o one.h5").status, 0);
+  const Contents all = open_archive(shell.folder() + "/sweep.h5");
+  const Contents one = open_archive(shell.folder() + "/one.h5");
+  std::size_t found = 0;
+  for (const auto& [path, bytes] : one.datasets) {
+    const auto same = all.datasets.find("values/1/" + path);
+    ASSERT_NE(same, all.datasets.end()) << path;
+    if (path != "system") {
+      EXPECT_EQ(same->second, bytes) << path;
+    }
+    ++found;
+  }
+  EXPECT_GT(found, 30u);
 }
 
 TEST(Sweep, RowsAreTheRunsOfTheirValues) {

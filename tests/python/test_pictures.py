@@ -189,6 +189,11 @@ def test_no_decay_is_drawn_where_the_data_tell_none():
     assert not carom.plot.survival(result).get_legend()
 
 
+def test_returns_are_drawn():
+    ax = carom.returns("sinai", on="wall:disc", trajectories=300, t_max=20).plot()
+    assert ax.get_xscale() == "log" and "disc" in ax.get_ylabel() and ax.containers
+
+
 def test_every_picture_of_a_diffusion_is_drawn(tmp_path):
     result = carom.diffusion("lorentz-square", trajectories=500, t_max=30, free_paths=True)
     names = list(carom.plot.pictures(result))

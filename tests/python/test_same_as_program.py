@@ -33,6 +33,15 @@ def test_diffusion(program, name):
     same(result, program("diffusion", name, "--trajectories", 1000, "--t-max", 50))
 
 
+def test_returns(program, tmp_path):
+    result = carom.returns("sinai", on="wall:disc", trajectories=300, t_max=20)
+    same(result, program("returns", "sinai", "--on", "wall:disc", "--trajectories", 300, "--t-max", 20))
+    assert abs(result.mean_time.value - result.expected_time) < 5 * result.mean_time.stderr
+    result.save(tmp_path / "returns.h5")
+    opened = carom.open(tmp_path / "returns.h5")
+    assert (opened.return_times == result.return_times).all() and opened.digest == result.digest
+
+
 def test_lyapunov(program):
     result = carom.lyapunov("sinai", trajectories=300, t_max=20)
     same(result, program("lyapunov", "sinai", "--trajectories", 300, "--t-max", 20))

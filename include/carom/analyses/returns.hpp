@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "carom/base/fields.hpp"
 #include "carom/results/distribution.hpp"
 #include "carom/results/ensemble_result.hpp"
 #include "carom/results/fate_counts.hpp"
@@ -48,36 +47,15 @@ struct ReturnTimeBin : DistributionBin {};
 struct ReturnHitsBin : DistributionBin {};
 template <>
 struct Fields<ReturnTimeBin> {
-  using B = ReturnTimeBin;
-  static constexpr std::tuple list{
-      field("from", "time", "Start of the bin", &B::from),
-      field("to", "time", "End of the bin", &B::to),
-      field("count", "1", "Returns after from <= t < to", &B::count),
-      field_as<double>(
-          "density", "1/time", "Share of all excursions, per time",
-          [](auto& b) -> auto& { return b.density.value; }),
-      field_as<double>(
-          "density_stderr", "1/time", "Its standard error",
-          [](auto& b) -> auto& { return b.density.error; }),
-      field_as<double>(
-          "longer", "1", "Share of the excursions that last `from` or longer",
-          [](auto& b) -> auto& { return b.longer.value; }),
-      field_as<double>(
-          "longer_stderr", "1", "Its standard error",
-          [](auto& b) -> auto& { return b.longer.error; })};
+  static constexpr auto list = distribution_fields<ReturnTimeBin>(
+      "time", "1/time", "Returns after from <= t < to", "Share of all excursions, per time",
+      "Share of the excursions that last `from` or longer");
 };
 template <>
 struct Fields<ReturnHitsBin> {
-  using B = ReturnHitsBin;
-  static constexpr std::tuple list{
-      field("from", "1", "Start of the bin", &B::from), field("to", "1", "End of the bin", &B::to),
-      field("count", "1", "Returns with from <= n < to hits, the last one counted", &B::count),
-      field_as<double>(
-          "longer", "1", "Share of the excursions of `from` hits or more",
-          [](auto& b) -> auto& { return b.longer.value; }),
-      field_as<double>(
-          "longer_stderr", "1", "Its standard error",
-          [](auto& b) -> auto& { return b.longer.error; })};
+  static constexpr auto list = distribution_fields<ReturnHitsBin>(
+      "1", "1", "Returns with from <= n < to hits, the last one counted",
+      "Share of all excursions, per hit", "Share of the excursions of `from` hits or more");
 };
 
 struct Returns {

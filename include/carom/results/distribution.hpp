@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <tuple>
 #include <vector>
 
+#include "carom/base/fields.hpp"
 #include "carom/results/binary_bins.hpp"
 #include "carom/results/estimate.hpp"
 
@@ -33,6 +35,26 @@ struct DistributionBin {
   Estimate density;  ///< share of all, per unit of the number
   Estimate longer;   ///< share of those that are `from` or more
 };
+
+/// The columns of bins of type B. `unit`: of the number; `per`: of the density; `counted`: what is
+/// in a bin; `density`: of what it is; `longer`: whose share is that.
+template <class B>
+constexpr auto distribution_fields(const char* unit, const char* per, const char* counted,
+                                   const char* density, const char* longer) {
+  return std::tuple{field("from", unit, "Start of the bin", &B::from),
+                    field("to", unit, "End of the bin", &B::to),
+                    field("count", "1", counted, &B::count),
+                    field_as<double>(
+                        "density", per, density, [](auto& b) -> auto& { return b.density.value; }),
+                    field_as<double>(
+                        "density_stderr", per, "Its standard error",
+                        [](auto& b) -> auto& { return b.density.error; }),
+                    field_as<double>(
+                        "longer", "1", longer, [](auto& b) -> auto& { return b.longer.value; }),
+                    field_as<double>(
+                        "longer_stderr", "1", "Its standard error",
+                        [](auto& b) -> auto& { return b.longer.error; })};
+}
 
 /// Between two numbers, a factor of four apart, of which the larger one is exceeded by at least 100
 /// and the smaller one is 16 means or more.

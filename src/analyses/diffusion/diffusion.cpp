@@ -4,7 +4,6 @@
 
 #include "analyses/diffusion/diffusion_listener.hpp"
 #include "carom/base/error.hpp"
-#include "carom/engines/trajectories.hpp"
 #include "carom/starts/injection.hpp"
 #include "carom/starts/sampler.hpp"
 
@@ -22,23 +21,6 @@ DiffusionResult nothing(const System& system) {
   result.sums = DisplacementSums(system.run.times);
   if (system.run.free_paths) result.free_paths = FreePathSums(longest_path(system));
   return result;
-}
-
-// What one thread does.
-void work(const System& system, const Sampler& sampler, const DiffusionOptions& options,
-          const World& world, DiffusionListener::Thread& thread) {
-  const auto engine = make_engine(system, {.t_end = system.run.times.back(),
-                                           .times = system.run.times,
-                                           .hits = system.run.free_paths,
-                                           .lanes = options.lanes,
-                                           .like = &world});
-  DiffusionListener listener(system, *engine, thread);
-  const std::function<bool()> stopped = [&] { return thread.stopped(); };
-  DrawnStarts starts(sampler, [&](TrajectoryRange& block) {
-    std::uint64_t number = 0;
-    return !stopped() && thread.claim(block, number);
-  });
-  engine->run(starts, listener, stopped);
 }
 
 void refuse_impossible(const System& system) {
@@ -78,13 +60,12 @@ bool DiffusionResult::add(const DiffusionResult& other) {
 
 DiffusionResult run_diffusion(const System& system, const DiffusionOptions& options) {
   refuse_impossible(system);
-  check_start(system, options.interrupted);
-  const Sampler sampler(system, options.interrupted);
-  const World world = make_world(system, options.decisions);  // threads share its table
-  engines::EnsembleRun<DiffusionResult> run(system, options, nothing(system));
-  if (why_one_by_one(system).empty()) run.lanes = options.lanes;
-  return run.run(
-      [&](DiffusionListener::Thread& thread) { work(system, sampler, options, world, thread); });
+  return engines::fly_blocks<DiffusionResult>(
+      system, system, options, nothing(system),
+      {.t_end = system.run.times.back(), .times = system.run.times, .hits = system.run.free_paths},
+      [&](const Engine& engine, DiffusionListener::Thread& thread) {
+        return DiffusionListener(system, engine, thread);
+      });
 }
 
 }  // namespace carom

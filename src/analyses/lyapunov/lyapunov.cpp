@@ -207,10 +207,6 @@ std::optional<InputError> why_nothing(const System& system, const LyapunovResult
 
 LyapunovResult run_lyapunov(const System& system, const LyapunovOptions& options) {
   refuse_no_exponents(system);
-  const System flow = with_starts_of_the_flow(system);
-  check_start(flow, options.interrupted);
-  const Sampler sampler(flow, options.interrupted);
-  const World world = make_world(system, options.decisions);  // threads share its table
   LyapunovResult nothing;
   nothing.growth = plan_of(system);
   if (system.run.spectrum)
@@ -218,24 +214,15 @@ LyapunovResult run_lyapunov(const System& system, const LyapunovOptions& options
                         vanishing_exponents(system).count};
   const GrowthTimes times(nothing.growth);
   const double unit_length = unit_length_of(*system.table);
-  engines::EnsembleRun<LyapunovResult> run(system, options, nothing);
-  if (why_one_by_one(system, {.deviations = times.times(), .frame = system.run.spectrum}).empty())
-    run.lanes = options.lanes;
-  LyapunovResult result = run.run([&](LyapunovListener::Thread& thread) {
-    const auto engine = make_engine(system, {.t_end = nothing.growth.window().to,
-                                             .deviations = times.times(),
-                                             .unit_length = unit_length,
-                                             .frame = system.run.spectrum,
-                                             .lanes = options.lanes,
-                                             .like = &world});
-    LyapunovListener listener(system, times, nothing.growth, unit_length, *engine, thread);
-    const std::function<bool()> stopped = [&] { return thread.stopped(); };
-    DrawnStarts starts(sampler, [&](TrajectoryRange& block) {
-      std::uint64_t number = 0;
-      return !stopped() && thread.claim(block, number);
-    });
-    engine->run(starts, listener, stopped);
-  });
+  LyapunovResult result = engines::fly_blocks<LyapunovResult>(
+      system, with_starts_of_the_flow(system), options, nothing,
+      {.t_end = nothing.growth.window().to,
+       .deviations = times.times(),
+       .unit_length = unit_length,
+       .frame = system.run.spectrum},
+      [&](const Engine& engine, LyapunovListener::Thread& thread) {
+        return LyapunovListener(system, times, nothing.growth, unit_length, engine, thread);
+      });
   SplittingOptions how;
   how.threads = options.threads;
   how.decisions = options.decisions;

@@ -17,15 +17,6 @@ using files::Json;
 
 namespace {
 
-std::string drawn_in_place(const System& system) {
-  std::string text =
-      "uniform, the measure of the flow, in place of starts from all walls, which have that of the "
-      "map from hit to hit";
-  for (const Particle& p : system.particles)
-    if (p.omega != 0.0) return text + "; circles that meet no wall do not count";
-  return text;
-}
-
 // Archives of older versions, which keep no drift, hold orbits from the walls.
 bool were_drawn(const System& system, const LyapunovResult& result) {
   return starts_of_the_map(system) && result.drift.orbits > 0;

@@ -52,12 +52,13 @@ void describe(V& v, Result& result, const System& system) {
        "Fewest hits of an excursion that has not come back; 2^64 - 1: there is none"},
       [&](std::size_t g) -> auto& { return of(g).fewest_away; });
   const char *const counted = "Returns of the group in this bin",
-                    *const longer = "Excursions of each group that are longer";
+                    *const longer = "Excursions of half of the run or more, of each group",
+                    *const away = "Excursions that have not come back, of each group";
   results::describe_counts(
       v, "time_", {"time", counted, longer},
       ReturnSums::groups, [&](std::size_t g) -> auto& { return of(g).times; });
   results::describe_counts(
-      v, "hits_", {"1", counted, longer},
+      v, "hits_", {"1", counted, away},
       ReturnSums::groups, [&](std::size_t g) -> auto& { return of(g).hits; });
   if constexpr (V::reads)
     for (std::size_t g = 0; g < read.size(); ++g) result.sums.add(g, read[g]);

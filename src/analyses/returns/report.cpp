@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analyses/returns/describe.hpp"
@@ -64,7 +65,9 @@ Json result_json(const System& system, const ReturnsResult& result,
                  const EnsembleContext& context) {
   Json json = ensemble_json(system, result, context);
   json.set("wall", system.table->wall(system.section.wall).name);
-  json.set("starts", starts_json(with_starts_of_the_flow(system)));
+  Json starts = starts_json(with_starts_of_the_flow(system));
+  if (starts_of_the_map(system)) starts.set("drawn", drawn_in_place(system));
+  json.set("starts", std::move(starts));
   files::JsonOut out(json);
   analyses::describe(out, result, system);
   add_steps(json, system, result.steps);
@@ -92,7 +95,7 @@ std::string result_text(const System& system, const ReturnsResult& result,
       head_text(system, result.trajectories, system.run.t_max, result.complete, context);
   if (const std::string note = repeated_starts(system); !note.empty()) text += folded(note) + '\n';
   if (starts_of_the_map(system))
-    text += "starts: uniform, the measure of the flow, in place of starts from all walls\n";
+    text += folded(fmt::format("starts: {}", drawn_in_place(system))) + '\n';
   if (const std::string why = why_not_stationary(with_starts_of_the_flow(system)); !why.empty())
     text += folded(fmt::format("the starts are not stationary ({}): early excursions are theirs",
                                why)) +

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "carom/base/error.hpp"
-#include "carom/engines/trajectories.hpp"
 #include "carom/events/energy.hpp"
 #include "carom/starts/sampler.hpp"
 #include "carom/starts/start_measure.hpp"
@@ -186,8 +185,14 @@ Returns returns_of(const ReturnSums& sums, double half) {
                                16 * made.mean_time.value);
   made.hits = distribution_of({hits, limit, 0.0}, filled, {}, 16 * made.mean_hits.value);
   // Numbers of hits are whole: of small ones most bins hold none.
-  for (DistributionBin& bin : made.hits.bins)
-    bin.from = std::ceil(bin.from), bin.to = std::ceil(bin.to);
+  for (DistributionBin& bin : made.hits.bins) {
+    const double width = bin.to - bin.from;
+    bin.from = std::ceil(bin.from);
+    bin.to = std::ceil(bin.to);
+    const double whole = bin.to - bin.from;
+    if (whole > 0.0)
+      bin.density = {bin.density.value * width / whole, bin.density.error * width / whole};
+  }
   std::erase_if(made.hits.bins, [](const DistributionBin& bin) { return bin.from == bin.to; });
   return made;
 }
@@ -206,26 +211,15 @@ std::optional<ExpectedReturns> expected_returns(const System& as_written) {
   return ExpectedReturns{m.mean_flight * m.perimeter / (length * speed), m.perimeter / length};
 }
 
-ReturnsResult run_returns(const System& as_written, const EnsembleOptions<ReturnsResult>& options) {
+ReturnsResult run_returns(const System& system, const EnsembleOptions<ReturnsResult>& options) {
   using namespace analyses;
-  const System system = with_starts_of_the_flow(as_written);
   refuse_impossible(system);
-  check_start(system, options.interrupted);
-  const Sampler sampler(system, options.interrupted);
-  const World world = make_world(system, options.decisions);  // threads share its table
-  engines::EnsembleRun<ReturnsResult> run(system, options, {});
-  if (why_one_by_one(system).empty()) run.lanes = options.lanes;
-  return run.run([&](ReturnsListener::Thread& thread) {
-    const auto engine = make_engine(
-        system, {.t_end = system.run.t_max, .hits = true, .lanes = options.lanes, .like = &world});
-    ReturnsListener listener(system, *engine, thread);
-    const std::function<bool()> stopped = [&] { return thread.stopped(); };
-    DrawnStarts starts(sampler, [&](TrajectoryRange& block) {
-      std::uint64_t number = 0;
-      return !stopped() && thread.claim(block, number);
-    });
-    engine->run(starts, listener, stopped);
-  });
+  return engines::fly_blocks<ReturnsResult>(
+      system, with_starts_of_the_flow(system), options, {},
+      {.t_end = system.run.t_max, .hits = true},
+      [&](const Engine& engine, ReturnsListener::Thread& thread) {
+        return ReturnsListener(system, engine, thread);
+      });
 }
 
 }  // namespace carom

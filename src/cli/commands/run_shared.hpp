@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <exception>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -92,22 +91,15 @@ int run_shared(const Options& asked, Ranks& ranks) {
   options.quiet = asked.quiet || !first;
   // The first rank reads everything, and claims the archive.
   EnsembleJob<Result> job;
-  std::exception_ptr problem;
-  try {
-    if (first) {
-      check_engine(options);
-      how_to_run<Result>(options);
-      const files::Progress preparing(!options.quiet);
-      job = job_of<Result>(options, Sharing::first);
-      if (!job.stored && !job.output.empty()) files::give_up_checkpoint(job.output);
-    }
-  } catch (...) {
-    problem = std::current_exception();
-  }
-  const bool complete = job.stored && job.stored->result.complete;
-  const std::string word = ranks.tell(problem ? "failed" : complete ? nothing : go);
-  if (problem) std::rethrow_exception(problem);
-  if (first && complete) {
+  const std::string word = word_of_first(&ranks, [&] {
+    check_engine(options);
+    how_to_run<Result>(options);
+    const files::Progress preparing(!options.quiet);
+    job = job_of<Result>(options, Sharing::first);
+    if (!job.stored && !job.output.empty()) files::give_up_checkpoint(job.output);
+    return job.stored && job.stored->result.complete ? nothing : go;
+  });
+  if (first && word == nothing) {
     job.lock.reset();
     return report(options, job, job.stored->result, job.stored->status);
   }

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <exception>
-
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -244,16 +242,12 @@ int Sweep::finish(int status) {
 }
 
 int Sweep::run() {
-  constexpr const char *go = "go", *nothing = "nothing", *failed = "failed";
-  std::exception_ptr problem;
-  try {
-    if (first()) prepare();
-  } catch (...) {
-    problem = std::current_exception();
-  }
-  const std::string word = tell(problem ? failed : complete_ ? nothing : go);
-  if (problem) std::rethrow_exception(problem);
-  if (word == failed) return bad_input;
+  constexpr const char *go = "go", *nothing = "nothing";
+  const std::string word = word_of_first(ranks_, [&] {
+    prepare();
+    return complete_ ? nothing : go;
+  });
+  if (word.empty()) return bad_input;
   if (word == nothing) return first() ? show_stored() : done;
   if (ranks_) {
     const std::string plan = tell(first() ? result_.plan.json().text() : "");
@@ -266,6 +260,7 @@ int Sweep::run() {
     status = compute_all();
   } catch (...) {
     if (first() && !file_.empty()) say_what_is_kept();
+    if (ranks_) ranks_->give_up();  // the others wait for the next value
     throw;
   }
   if (!first() || status == bad_input || status == usage) return status;

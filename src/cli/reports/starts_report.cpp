@@ -15,6 +15,15 @@ Json starts_json(const System& system) {
   return json;
 }
 
+std::string drawn_in_place(const System& system) {
+  std::string text =
+      "uniform, the measure of the flow, in place of starts from all walls, which have that of the "
+      "map from hit to hit";
+  for (const Particle& p : system.particles)
+    if (p.omega != 0.0) return text + "; circles that meet no wall do not count";
+  return text;
+}
+
 std::string correlation_note(const System& system) {
   const std::string why = why_not_stationary(system);
   if (why.empty()) return {};

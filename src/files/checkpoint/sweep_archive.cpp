@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -51,10 +50,11 @@ void write_table(const ArchiveFile& file, const SweepPlan& plan,
                        {"as in the report", column.description.c_str()}, name);
 }
 
-// HDF5's own copy of a group with many attributes that are texts of variable length crashes (1.10):
-// attributes go one by one.
+// To a group that has none of these names. HDF5's own copy of a group with many attributes that are
+// texts of variable length crashes (1.10): attributes go one by one.
 void copy_attributes(hid_t from, hid_t to, const std::string& name) {
   const int count = H5Aget_num_attrs(from);
+  hdf5::check(count >= 0, name);
   for (int i = 0; i < count; ++i) {
     const Handle attribute(H5Aopen_by_idx(from, ".", H5_INDEX_NAME, H5_ITER_INC,
                                           static_cast<hsize_t>(i), H5P_DEFAULT, H5P_DEFAULT),
@@ -62,11 +62,12 @@ void copy_attributes(hid_t from, hid_t to, const std::string& name) {
     hdf5::check(bool(attribute), name);
     const Handle type(H5Aget_type(attribute.get()), H5Tclose),
         space(H5Aget_space(attribute.get()), H5Sclose);
-    const auto points = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.get()));
-    std::vector<char> key(static_cast<std::size_t>(H5Aget_name(attribute.get(), 0, nullptr)) + 1),
-        value(points * H5Tget_size(type.get()));
-    H5Aget_name(attribute.get(), key.size(), key.data());
-    if (H5Aexists(to, key.data()) > 0) H5Adelete(to, key.data());
+    const hssize_t points = H5Sget_simple_extent_npoints(space.get());
+    const ssize_t length = H5Aget_name(attribute.get(), 0, nullptr);
+    hdf5::check(type && points >= 0 && length > 0, name);
+    std::vector<char> key(static_cast<std::size_t>(length) + 1),
+        value(static_cast<std::size_t>(points) * H5Tget_size(type.get()));
+    hdf5::check(H5Aget_name(attribute.get(), key.size(), key.data()) == length, name);
     const Handle copy(H5Acreate2(to, key.data(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT),
                       H5Aclose);
     hdf5::check(copy && H5Aread(attribute.get(), type.get(), value.data()) >= 0 &&
@@ -116,14 +117,12 @@ void write_value(const ArchiveFile& file, const SweepPlan& plan, std::size_t ind
 bool extract(hid_t file, const std::string& name, std::size_t index, const std::string& target) {
   const Handle value = open_group(file, path_of(index).c_str(), name);
   if (!hdf5::has(value.get(), "provenance")) return false;
-  std::remove(target.c_str());
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_libver_bounds(access.get(), H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
-  const Handle made(H5Fcreate(target.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, access.get()), H5Fclose);
-  hdf5::check(bool(made), target);
-  const Handle root = open_group(made.get(), "/", target);
+  ArchiveFile made = ArchiveFile::create(target, target);
+  const Handle root = open_group(made.id(), "/", target);
   copy_archive(value.get(), root.get(), name);
-  H5Adelete(root.get(), "description");  // the sweep's own
+  hdf5::check(H5Adelete(root.get(), "description") >= 0, target);  // the sweep's own
+  hdf5::verify(made.id(), name);  // the checksums are those of the value when it was computed
+  made.keep_as(target);
   return true;
 }
 

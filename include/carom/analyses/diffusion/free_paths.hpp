@@ -59,23 +59,9 @@ using FreePathDistribution = Distribution;
 
 template <>
 struct Fields<FreePathBin> {
-  using B = FreePathBin;
-  static constexpr std::tuple list{
-      field("from", "length", "Start of the bin", &B::from),
-      field("to", "length", "End of the bin", &B::to),
-      field("count", "1", "Flights of from <= length < to", &B::count),
-      field_as<double>(
-          "density", "1/length", "Share of all flights, per length",
-          [](auto& b) -> auto& { return b.density.value; }),
-      field_as<double>(
-          "density_stderr", "1/length", "Its standard error",
-          [](auto& b) -> auto& { return b.density.error; }),
-      field_as<double>(
-          "longer", "1", "Share of the flights that are at least `from` long",
-          [](auto& b) -> auto& { return b.longer.value; }),
-      field_as<double>(
-          "longer_stderr", "1", "Its standard error",
-          [](auto& b) -> auto& { return b.longer.error; })};
+  static constexpr auto list = distribution_fields<FreePathBin>(
+      "length", "1/length", "Flights of from <= length < to", "Share of all flights, per length",
+      "Share of the flights that are at least `from` long");
 };
 
 /// Where free corridors exist, both tails' amplitudes tend to flight_tail.
