@@ -26,7 +26,7 @@ libcarom-dev).")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libcarom-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 string(JOIN ", " CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS libflint-arb-dev libflint-dev libfmt-dev libgmp-dev libgsl-dev libhdf5-dev
-  libisal-dev libmpfr-dev libsleef-dev libsundials-dev libtomlplusplus-dev zlib1g-dev)
+  libisal-dev libmpfr-dev libsundials-dev libtomlplusplus-dev zlib1g-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SUGGESTS carom)
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "Headers, carom::carom and carom::geometry, found by find_package(carom).")
 

@@ -19,6 +19,5 @@ find_library(MPFR_LIBRARY mpfr REQUIRED)
 find_path(ARB_INCLUDE_DIR arb.h REQUIRED)  # Debian 12 ships Arb beside FLINT 2
 find_library(ARB_LIBRARY NAMES flint-arb arb REQUIRED)
 find_library(FLINT_LIBRARY flint REQUIRED)
-find_library(SLEEF_LIBRARY sleef REQUIRED)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
 find_path(HIGHWAY_INCLUDE_DIR hwy/highway.h REQUIRED)

@@ -1,44 +1,153 @@
 #include "carom/base/elementary.hpp"
 
-#include <sleef.h>
+#include <limits>
 
-// SLEEF's "cinz" functions use neither fused multiply-add nor instructions that depend on the CPU
-// found at run time: each is one fixed chain of IEEE operations. On x86-64 the SSE2 ones serve, as
-// they are four times as fast as the scalar ones and give the same bits. The argument is copied
-// into both lanes because SLEEF chooses its reduction for all lanes together: another value in the
-// second lane could change the last bit of the first.
+#include "carom/base/fused_product.hpp"
+#include "elementary_exact.hpp"
+#include "elementary_fast.hpp"
+
 namespace carom::elementary {
 
-#if defined(__SSE2__)
-
 namespace {
-double first(__m128d x) { return _mm_cvtsd_f64(x); }
+
+namespace fast = base::fast;
+namespace exact = base::exact;
+using fast::Fusing;
+using fast::Result;
+using fast::Splitting;
+
+struct Sine {
+  template <class Products>
+  CAROM_INLINE static Result<double> of(double x) {
+    return fast::sine<Products>(fast::reduced<Products>(table(), x));
+  }
+  CAROM_INLINE static const fast::SineTable& table() {
+    static const fast::SineTable& made = fast::sine_table();
+    return made;
+  }
+};
+struct Cosine {
+  template <class Products>
+  CAROM_INLINE static Result<double> of(double x) {
+    return fast::cosine<Products>(fast::reduced<Products>(Sine::table(), x));
+  }
+};
+struct Both {
+  struct Results {
+    Result<double> sin, cos;
+  };
+  template <class Products>
+  CAROM_INLINE static Results of(double x) {
+    const fast::Angle angle = fast::reduced<Products>(Sine::table(), x);
+    return {fast::sine<Products>(angle), fast::cosine<Products>(angle)};
+  }
+};
+struct Exponential {
+  template <class Products>
+  CAROM_INLINE static Result<double> of(double x) {
+    return fast::exp<Products, double>(table(), x);
+  }
+  CAROM_INLINE static const fast::ExpTable& table() {
+    static const fast::ExpTable& made = fast::exp_table();
+    return made;
+  }
+};
+struct SmallExponential {
+  template <class Products>
+  CAROM_INLINE static Result<double> of(double x) {
+    return fast::small_exp<Products>(Exponential::table(), x);
+  }
+};
+struct Logarithm {
+  template <class Products>
+  CAROM_INLINE static Result<double> of(double x) {
+    static const fast::LogTable& table = fast::log_table();
+    return fast::log<Products>(table, x);
+  }
+};
+struct AngleOf {
+  template <class Products>
+  CAROM_INLINE static Result<double> of(double y, double x) {
+    static const fast::AngleTable& table = fast::angle_table();
+    return fast::atan2<Products, double>(table, y, x);
+  }
+};
+
+#if defined(__x86_64__) && !defined(__FMA__)
+template <class Function, class... Numbers>
+[[gnu::target("fma")]] auto by_instruction(Numbers... x) {
+  return Function::template of<Fusing>(x...);
+}
+/// One text for processors that fuse products and for those that do not.
+template <class Function, class... Numbers>
+auto quick(Numbers... x) {
+  if (detail::fuses) [[likely]]
+    return by_instruction<Function>(x...);
+  return Function::template of<Splitting>(x...);
+}
+#else
+template <class Function, class... Numbers>
+auto quick(Numbers... x) {
+  return Function::template of<Fusing>(x...);
+}
+#endif
+
 }  // namespace
 
-double sin(double x) { return first(Sleef_cinz_sind2_u10sse2(_mm_set1_pd(x))); }
-double cos(double x) { return first(Sleef_cinz_cosd2_u10sse2(_mm_set1_pd(x))); }
-SinCos sincos(double x) {
-  const auto both = Sleef_cinz_sincosd2_u10sse2(_mm_set1_pd(x));
-  return {first(both.x), first(both.y)};
+double sin(double x) {
+  if (std::fabs(x) < fast::least_angle) return x;
+  if (std::fabs(x) < fast::largest_angle) {
+    const Result<double> r = quick<Sine>(x);
+    if (r.spread == 0.0) [[likely]]
+      return r.value;
+  }
+  return exact::sin(x);
 }
+
+double cos(double x) {
+  if (std::fabs(x) < fast::least_angle) return 1.0;
+  if (std::fabs(x) < fast::largest_angle) {
+    const Result<double> r = quick<Cosine>(x);
+    if (r.spread == 0.0) [[likely]]
+      return r.value;
+  }
+  return exact::cos(x);
+}
+
+SinCos sincos(double x) {
+  if (std::fabs(x) < fast::least_angle) return {x, 1.0};
+  if (std::fabs(x) < fast::largest_angle) {
+    const Both::Results r = quick<Both>(x);
+    if (r.sin.spread == 0.0 && r.cos.spread == 0.0) [[likely]]
+      return {r.sin.value, r.cos.value};
+  }
+  return {exact::sin(x), exact::cos(x)};
+}
+
 double atan2(double y, double x) {
-  return first(Sleef_cinz_atan2d2_u10sse2(_mm_set1_pd(y), _mm_set1_pd(x)));
+  const Result<double> r = quick<AngleOf>(y, x);
+  return r.spread == 0.0 ? r.value : exact::atan2(y, x);
 }
-double exp(double x) { return first(Sleef_cinz_expd2_u10sse2(_mm_set1_pd(x))); }
-double log(double x) { return first(Sleef_cinz_logd2_u10sse2(_mm_set1_pd(x))); }
 
-#else
-
-double sin(double x) { return Sleef_cinz_sind1_u10purec(x); }
-double cos(double x) { return Sleef_cinz_cosd1_u10purec(x); }
-SinCos sincos(double x) {
-  const auto both = Sleef_cinz_sincosd1_u10purec(x);
-  return {both.x, both.y};
+double exp(double x) {
+  const Result<double> r = quick<Exponential>(x);
+  if (r.spread == 0.0) [[likely]]
+    return r.value;
+  if (x < fast::least_exp) {
+    const Result<double> small = quick<SmallExponential>(x);
+    if (small.spread == 0.0) return small.value;
+  }
+  return exact::exp(x);
 }
-double atan2(double y, double x) { return Sleef_cinz_atan2d1_u10purec(y, x); }
-double exp(double x) { return Sleef_cinz_expd1_u10purec(x); }
-double log(double x) { return Sleef_cinz_logd1_u10purec(x); }
 
-#endif
+double log(double x) {
+  if (x >= std::numeric_limits<double>::min() && x <= std::numeric_limits<double>::max())
+      [[likely]] {
+    const Result<double> r = quick<Logarithm>(x);
+    if (r.spread == 0.0) [[likely]]
+      return r.value;
+  }
+  return exact::log(x);
+}
 
 }  // namespace carom::elementary

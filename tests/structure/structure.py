@@ -63,7 +63,6 @@ PACKAGES = {
     r"boost/": r"geometry/src/|src/base/|src/forces/quad\.hpp",
     r"gmp|mpfr": r"geometry/src/|src/base/|src/table/|src/certify/",
     r"(arb|acb|arf|mag)(_\w+)?\.h|flint": r"src/certify/",
-    r"sleef": r"src/base/elementary.*\.cpp",
     r"gsl/": r"src/analyses/relax/|src/orbits/",
     r"Random123/": r"src/base/random\.cpp",
     r"toml\+\+/|hdf5": r"src/files/",
@@ -81,8 +80,10 @@ LIBM_FREE = (
     r"include/carom/(?!maps/)|geometry/|src/(base|table|motion|forces|integrators|events|lanes|orbits|system|results|starts|engines)/"
     r"|src/analyses/\w+/(?!report|command)"
 )
-# What makes these functions the same everywhere: SLEEF behind the first ones, Boost behind the last.
-DOORS = ("src/base/elementary.cpp", "src/base/elementary_spans.cpp", "include/carom/base/elementary.hpp", "src/forces/quad.hpp")
+# What makes these functions the same everywhere: right rounding behind the first ones, Boost behind the last.
+DOORS = ("src/base/elementary.cpp", "src/base/elementary_exact.cpp", "src/base/elementary_exact.hpp", "src/base/elementary_fast.hpp",
+         "src/base/elementary_spans.cpp", "src/base/kernel/elementary_kernel.cpp", "include/carom/base/elementary.hpp",
+         "src/forces/quad.hpp")
 LIBM = (
     "sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 expm1 log log2 log10 log1p "
     "pow hypot cbrt erf erfc tgamma lgamma sincos ellint_1 ellint_2 ellint_3 comp_ellint_1 comp_ellint_2 "

@@ -110,7 +110,7 @@ SoftEngine::SoftEngine(const Table& table, const Dynamics& dynamics, Instruction
   if (table_.extent == Extent::bounded)
     surroundings_.inside = [this](Vector x) { return inside(x); };
   surroundings_.counts = &steps_;
-  forces_.exp = elementary::exp_by(kernel_.width);
+  forces_.exp = elementary::exp_by(8);
   forces_.other = add_other;
   forces_.context = this;
   forces_.barriers = surroundings_.barriers.data();
