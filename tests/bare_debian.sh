@@ -1,6 +1,11 @@
-# A minimal Debian 12 in a folder, for scripts that read this file and set say, die, folder and keep. Needs root.
-# Where packages come from is asked of the apt of this machine. The folder is removed at the end unless keep is set.
-release=bookworm
+# A minimal Debian in a folder, for scripts that read this file and set say, die, folder, keep and debian (12 or 13).
+# Needs root. Where packages come from is asked of the apt of this machine. The folder is removed at the end unless keep
+# is set.
+case $debian in
+  12) release=bookworm ;;
+  13) release=trixie ;;
+  *) die "no such Debian: $debian; 12 or 13" ;;
+esac
 
 make_debian() {
   [[ $EUID -eq 0 ]] || die "needs root"
@@ -12,9 +17,11 @@ make_debian() {
   fi
 
   # Where this machine gets Debian from: one line "URI suite component" for each source.
-  local sources mirror include= file
+  local sources mirror include= file here
+  here=$(. /etc/os-release && echo "${VERSION_CODENAME-}")
   mapfile -t sources < <(apt-get indextargets --format '$(REPO_URI) $(RELEASE) $(COMPONENT)' \
-    'Created-By: Packages' 'Origin: Debian' | grep -E " $release(-[a-z]+)? main\$" | sort -u)
+    'Created-By: Packages' 'Origin: Debian' |
+    sed -En "s/ $here((-[a-z]+)? main)\$/ $release\1/p" | sort -u)
   mirror=$(printf '%s\n' "${sources[@]}" | sed -n "s/ $release main\$//p" | head -n 1)
   [[ -n $mirror ]] || die "apt on this machine knows no mirror of Debian $release"
   eval "$(apt-config shell proxy Acquire::http::Proxy)"
@@ -41,7 +48,7 @@ make_debian() {
 # Runs a command in the folder's /carom as in a machine of its own: its mounts vanish with its processes.
 inside() {
   unshare --mount --pid --fork --kill-child bash -c '
-    mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" &&
+    mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && mount --rbind /sys "$0/sys" &&
     exec chroot "$0" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 \
       ${http_proxy:+http_proxy="$http_proxy"} bash -c "cd /carom && exec \"\$@\"" bash "$@"' "$folder" "$@"
 }

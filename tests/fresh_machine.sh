@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# The proof of the fresh machine: a minimal Debian 12 in a folder, the tracked files copied into it,
+# The proof of the fresh machine: a minimal Debian in a folder, the tracked files copied into it,
 # and there the two commands of the README; or the packages of ./dev release. Needs root.
 set -euo pipefail
 
 usage() {
   cat <<'END'
-./dev bare [--no-test | --packages] [--keep] [FOLDER]
+./dev bare [--debian 12|13] [--no-test | --packages] [--keep] [FOLDER]
   FOLDER      where the small Debian is made (default: build/bare); it must not exist
+  --debian    12 (default) or 13
   --no-test   only ./dev run escape magnetic-square
   --packages  install each package of ./dev release, use it, remove it: nothing may be left
   --keep      leave the folder for a look around
@@ -17,16 +18,19 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 limit=360
 folder=$root/build/bare
 what=tests
+debian=12
 keep=
-for argument; do
-  case $argument in
+while [[ $# -gt 0 ]]; do
+  case $1 in
+    --debian) debian=${2-}; [[ $# -gt 1 ]] && shift ;;
     --no-test) what=run ;;
     --packages) what=packages ;;
     --keep) keep=yes ;;
     -h | --help) usage; exit ;;
     -*) usage >&2; exit 2 ;;
-    *) folder=$(realpath -m "$argument") ;;
+    *) folder=$(realpath -m "$1") ;;
   esac
+  shift
 done
 say() { echo "bare: $*" >&2; }
 die() { say "$*"; exit 1; }

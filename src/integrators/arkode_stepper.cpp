@@ -11,6 +11,9 @@
 #include "carom/integrators/arithmetic.hpp"
 #include "integrators/embedded_table.hpp"
 
+// From 7.1 on these functions have a second name, which 6 does not know.
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+
 namespace carom::integrators {
 
 namespace {
@@ -57,7 +60,9 @@ ArkodeStepper::ArkodeStepper(const ForceLaw<double>& law, std::span<const double
   memory_ =
       ARKStepCreate(OdeProblem::derivative, nullptr, 0.0, problem_.state(), problem_.context());
   if (memory_ == nullptr) throw InternalError("ARKODE has no memory");
+#if SUNDIALS_VERSION_MAJOR < 7
   ARKStepSetErrHandlerFn(memory_, OdeProblem::no_message, nullptr);
+#endif
   ARKStepSetUserData(memory_, &problem_);
   ARKStepSetTables(memory_, table->q, table->p, nullptr, table);  // which copies it
   ARKStepWFtolerances(memory_, OdeProblem::weights);

@@ -24,7 +24,9 @@ CvodeStepper::CvodeStepper(const ForceLaw<double>& law, std::span<const double> 
   N_VConst(0.0, problem_.state());
   memory_ = CVodeCreate(CV_ADAMS, problem_.context());
   if (memory_ == nullptr) throw InternalError("CVODE has no memory");
+#if SUNDIALS_VERSION_MAJOR < 7
   CVodeSetErrHandlerFn(memory_, OdeProblem::no_message, nullptr);
+#endif
   CVodeInit(memory_, OdeProblem::derivative, 0.0, problem_.state());
   CVodeSetUserData(memory_, &problem_);
   CVodeSetMaxErrTestFails(memory_, 20);

@@ -29,7 +29,11 @@ OdeProblem::OdeProblem(const ForceLaw<double>& law, std::span<const double> omeg
       tolerance_(tolerance),
       state_(N_VNew_Serial(static_cast<sunindextype>(4 * omega.size()), context_)),
       position_(omega.size()),
-      acceleration_(omega.size()) {}
+      acceleration_(omega.size()) {
+#if SUNDIALS_VERSION_MAJOR >= 7
+  SUNContext_ClearErrHandlers(context_);
+#endif
+}
 
 double OdeProblem::largest_acceleration(const Phase<double>& from) {
   const std::span<const Vector> forced = known_.at_start(from.position);

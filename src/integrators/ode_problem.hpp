@@ -74,7 +74,9 @@ class OdeProblem {
   // What SUNDIALS calls; the last argument is this object.
   static int derivative(double time, N_Vector y, N_Vector dy, void* self);
   static int weights(N_Vector y, N_Vector weight, void* self);
+#if SUNDIALS_VERSION_MAJOR < 7  // later it is the context that speaks
   static void no_message(int, const char*, const char*, char*, void*) {}
+#endif
 
  private:
   struct FreeVector {

@@ -35,7 +35,8 @@ void check_plan(const IntegratorPlan& plan, const Place& place) {
     }
     return;
   }
-  const Scheme& scheme = find_scheme(plan.scheme, key(place, "scheme"));
+  const Place at = key(place, "scheme");
+  const Scheme& scheme = find_scheme(plan.scheme, at);
   if (plan.tolerance != 0.0) {
     throw InputError(
         key(place, "tolerance"),

@@ -10,6 +10,8 @@ const Scheme& default_scheme() { return find_scheme("blanes-moan-srkn11b"); }
 
 bool is_adaptive(std::string_view name) { return name == "arkode" || name == "cvode"; }
 
+const Scheme& find_scheme(const std::string& name) { return find_scheme(name, Place{}); }
+
 const Scheme& find_scheme(const std::string& name, const Place& place) {
   if (name.empty()) return default_scheme();
   std::vector<std::string> names;

@@ -32,7 +32,8 @@ const Kernel& kernel() {
   return instance;
 }
 
-CORE::BigInt big(const mpz_class& z) { return CORE::BigInt(z.get_str(16), 16); }
+// By its digits: CGAL 5's is a class of its own, CGAL 6's is Boost's.
+CORE::BigInt big(const mpz_class& z) { return CORE::BigInt(z.get_str()); }
 
 /// The polynomial times a positive integer.
 IntegerPolynomial integer_polynomial(const Polynomial& polynomial) {

@@ -49,7 +49,8 @@ struct Scheme {
 /// All fixed-step schemes, by order.
 const std::vector<Scheme>& schemes();
 /// The scheme of that name, or an InputError that lists the known ones; "" is the default.
-const Scheme& find_scheme(const std::string& name, const Place& place = {});
+const Scheme& find_scheme(const std::string& name, const Place& place);
+const Scheme& find_scheme(const std::string& name);
 /// Used where a system names none: the most accurate for its cost by measurement.
 const Scheme& default_scheme();
 /// Adaptive schemes: "arkode" and "cvode".

@@ -10,9 +10,11 @@ namespace {
 
 Ball rational(const mpq_class& q) {
   fmpq_t value;
-  fmpq_init_set_mpz_frac_readonly(value, q.get_num_mpz_t(), q.get_den_mpz_t());
+  fmpq_init(value);
+  fmpq_set_mpq(value, q.get_mpq_t());
   Ball result;
   arb_set_fmpq(result.raw(), value, Precision::bits());
+  fmpq_clear(value);
   return result;
 }
 

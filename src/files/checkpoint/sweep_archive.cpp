@@ -78,8 +78,7 @@ void copy_attributes(hid_t from, hid_t to, const std::string& name) {
   }
 }
 
-// All of an archive as a group of another file, or such a group as an archive: attributes, and
-// below /provenance, the only group that has many, attributes alone.
+// All of an archive as a group of another file, or such a group as an archive.
 void copy_archive(hid_t from, hid_t to, const std::string& name) {
   copy_attributes(from, to, name);
   H5G_info_t info;
@@ -90,15 +89,7 @@ void copy_archive(hid_t from, hid_t to, const std::string& name) {
                                               link.size(), H5P_DEFAULT);
     hdf5::check(length > 0 && static_cast<std::size_t>(length) < link.size(), name);
     if (std::string_view(link.data()) == report_name) continue;  // the sweep's own
-    if (std::string_view(link.data()) != "provenance") {
-      hdf5::check(H5Ocopy(from, link.data(), to, link.data(), H5P_DEFAULT, H5P_DEFAULT) >= 0, name);
-      continue;
-    }
-    const Handle source = open_group(from, "provenance", name);
-    const Handle target(H5Gcreate2(to, "provenance", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                        H5Gclose);
-    hdf5::check(bool(target), name);
-    copy_attributes(source.get(), target.get(), name);
+    hdf5::check(H5Ocopy(from, link.data(), to, link.data(), H5P_DEFAULT, H5P_DEFAULT) >= 0, name);
   }
 }
 
