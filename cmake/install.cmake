@@ -4,6 +4,9 @@ include(CMakePackageConfigHelpers)
 set(carom_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/carom)
 
 install(TARGETS carom_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+if(TARGET carom_mpi)
+  install(TARGETS carom_mpi RUNTIME DESTINATION libexec/carom COMPONENT program)
+endif()
 
 # Two export sets, so that a project that uses geometry alone needs none of the other packages.
 install(TARGETS carom_geometry EXPORT carom-geometry-targets

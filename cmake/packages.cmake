@@ -1,6 +1,7 @@
 # What the program is built with, and the versions that it has been built with: Debian 12's, the oldest, to Debian 13's.
 find_package(CGAL 5.5 REQUIRED)
 find_package(HDF5 1.10.5 REQUIRED COMPONENTS C)
+add_compile_definitions(H5_USE_110_API)  # in 1.12 and later functions and structs have other forms
 find_package(fmt 9 REQUIRED)
 find_package(CLI11 2.1 REQUIRED)
 find_package(tomlplusplus 3.3 REQUIRED)
@@ -18,6 +19,7 @@ find_library(GMPXX_LIBRARY gmpxx REQUIRED)
 find_library(MPFR_LIBRARY mpfr REQUIRED)
 # Arb is part of FLINT from 3 on; before, a library of its own.
 find_path(ARB_INCLUDE_DIR arb.h PATH_SUFFIXES flint REQUIRED)
+include_directories(SYSTEM ${ARB_INCLUDE_DIR})
 find_library(FLINT_LIBRARY flint REQUIRED)
 find_library(ARB_LIBRARY NAMES flint-arb arb)
 set(FLINT_LIBRARIES ${FLINT_LIBRARY})

@@ -75,6 +75,8 @@ int main(int argc, char** argv) {
   try {
 #ifdef CAROM_MPI
     start_ranks_by(mpi_ranks);
+#else
+    hand_over_to_mpi(argv);
 #endif
     const bool silent = rank_by_environment() > 0;
     if (silent && !keep_silent()) return bad_input;

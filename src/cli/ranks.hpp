@@ -28,7 +28,11 @@ int rank_by_environment();
 /// say on standard error is seen. False: their streams cannot be closed.
 bool keep_silent();
 void speak();
-/// Called once by the program, which alone is linked with MPI: what starts it.
+/// Where mpirun has started this process with others, carom-mpi beside the program, the same program
+/// linked with MPI, takes its place: MPI's libraries double the time that every start takes. Returns
+/// where there is no need, or no such program.
+void hand_over_to_mpi(char** arguments);
+/// Called once by carom-mpi: what starts MPI.
 void start_ranks_by(Ranks& (*start)());
 /// Starts MPI; null where this process was started alone, or built without MPI. MPI ends with the
 /// process, after its last word: mpirun ends all processes as soon as one of them has ended with an

@@ -17,7 +17,8 @@ Place place_of(const TableSpec& spec, const std::string& key) {
   return place;
 }
 
-const ExactNumber& number(const TableSpec& spec, const std::string& key) {
+const ExactNumber& number(const TableSpec& spec, std::string_view name) {
+  const std::string key(name);
   const auto found = spec.numbers.find(key);
   if (found == spec.numbers.end()) {
     throw InputError(place_of(spec, key), "the shape '" + spec.shape + "' needs '" + key + "'",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "carom/geometry/vector.hpp"
 #include "carom/table/table_spec.hpp"
@@ -9,7 +10,7 @@
 namespace carom::table::shapes {
 
 /// The number under a key; a missing one is an InputError at the shape.
-const ExactNumber& number(const TableSpec& spec, const std::string& key);
+const ExactNumber& number(const TableSpec& spec, std::string_view name);
 /// The same, or a value to fall back on.
 ExactNumber number_or(const TableSpec& spec, const std::string& key, const char* fallback);
 

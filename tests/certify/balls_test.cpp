@@ -1,5 +1,6 @@
 // Every operation of balls encloses: the exact answer for any rational numbers of the operands lies
 // in the result.
+#include <flint/fmpq.h>
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <random>
 
+#include "geometry/one_of.hpp"
+
 namespace carom::geometry {
 namespace {
 
@@ -30,7 +32,7 @@ Met oracle(const A& a, const B& b) {
   CGAL::intersection(a, b, std::back_inserter(all));
   Met met;
   for (const Result& r : all) {
-    if (const auto* p = boost::get<std::pair<K::Circular_arc_point_2, unsigned>>(&r)) {
+    if (const auto* p = one_of<std::pair<K::Circular_arc_point_2, unsigned>>(r)) {
       ++met.points;
       met.places.push_back(CGAL::to_double(p->first.x()) + 1e3 * CGAL::to_double(p->first.y()));
     } else {

@@ -11,9 +11,12 @@
 #include <gmpxx.h>
 
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
+
+#include "geometry/one_of.hpp"
 
 namespace carom::tests {
 
@@ -28,7 +31,7 @@ using Rational = BasicVector<mpq_class>;
 Rational rational(Vector v) { return {mpq_class(v.x), mpq_class(v.y)}; }
 Kernel::FT number(const mpq_class& q) { return Kernel::FT(q.get_mpq_t()); }
 Kernel::Point_2 point_of(const Rational& p) { return {number(p.x), number(p.y)}; }
-CORE::BigInt big(const mpz_class& z) { return CORE::BigInt(z.get_str(16), 16); }
+CORE::BigInt big(const mpz_class& z) { return CORE::BigInt(z.get_str()); }
 
 /// A conic: centre + ((1 - t^2) a + 2 t b)/(1 + t^2) while t grows from 0 over infinity to 0; a
 /// piece of it ends at t = end (0: never).
@@ -264,7 +267,7 @@ struct Oracle::Data {
       std::vector<Result> results;
       CGAL::intersection(trace, carrier, std::back_inserter(results));
       for (const Result& r : results)
-        if (const auto* p = boost::get<std::pair<Kernel::Circular_arc_point_2, unsigned>>(&r))
+        if (const auto* p = one_of<std::pair<Kernel::Circular_arc_point_2, unsigned>>(r))
           met.push_back(*p);
     };
     const auto line = [](const Rational& at, const Rational& along) {
@@ -274,7 +277,7 @@ struct Oracle::Data {
       const auto crossing =
           CGAL::intersection(line(flight.start, flight.v), line(c.from, c.to - c.from));
       if (crossing)
-        if (const auto* p = boost::get<Kernel::Point_2>(&*crossing)) met.emplace_back(*p, 1U);
+        if (const auto* p = one_of<Kernel::Point_2>(*crossing)) met.emplace_back(*p, 1U);
     } else {
       const Kernel::Line_2 own = c.segment ? line(c.from, c.to - c.from) : Kernel::Line_2();
       const Kernel::Circle_2 round =
@@ -342,7 +345,11 @@ struct Oracle::Data {
       Passage p;
       p.wall = wall;
       const auto bounds = algebra.approximate_relative_1_object()(t, 900);
-      const auto rational_bound = [](const Algebra::Bound& x) { return mpq_class(x.get_mp()); };
+      const auto rational_bound = [](const Algebra::Bound& x) {
+        std::ostringstream digits;
+        digits << x;
+        return mpq_class(digits.str());
+      };
       p.t = (rational_bound(bounds.first) + rational_bound(bounds.second)) / 2;
       p.plain = conic_at(c, p.t);
       all.push_back(std::move(p));

@@ -45,7 +45,7 @@ TEST_P(OrderOf, IsTheDeclaredOne) {
     for (const char* omega : {"0", "1.5"}) {
       SCOPED_TRACE(std::string(kind) + ", omega = " + omega);
       const auto problem = make_problem(kind, omega);
-      const Phase<Real>& truth = reference(kind, omega);
+      const Phase<Real> truth = reference(kind, omega);
       const Real coarse = distance(after_time_1(scheme, *problem, coarse_steps), truth);
       const Real fine = distance(after_time_1(scheme, *problem, 2 * coarse_steps), truth);
       const double order = static_cast<double>(log2(coarse / fine));

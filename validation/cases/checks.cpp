@@ -109,7 +109,7 @@ class Follower {
         world.clear();
         add_start(world, sampler_, i, 0);
         world.run_until(system_.run.t_max, probe);
-        probe.end();
+        probe.finish();
         unresolved += world.fate(0) == Fate::unresolved;
         lost += world.fate(0) == Fate::lost;
         singular += world.fate(0) == Fate::singular;
@@ -158,7 +158,7 @@ struct Flights : Observer {
     ++own;
     ++hits;
   }
-  void end() {
+  void finish() {
     if (own > 0) kept.push_back({index, sum / static_cast<double>(own)});
   }
   std::uint64_t index = 0, own = 0, hits = 0;
@@ -184,7 +184,7 @@ struct LastHits : Observer {
     if (own + 1 == cap) one.before = event.time.value();
     if (own == cap) one.last = event.time.value();
   }
-  void end() {
+  void finish() {
     one.reached = own == cap;
     if (own + 1 >= cap) kept.push_back(one);
   }

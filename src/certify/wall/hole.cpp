@@ -1,5 +1,6 @@
 #include "certify/wall/hole.hpp"
 
+#include <acb.h>
 #include <acb_elliptic.h>
 
 #include <cmath>

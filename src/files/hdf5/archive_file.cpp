@@ -64,8 +64,8 @@ Handle latest_format(const std::string& name) {
 
 // Attributes stay in the headers of their objects, which have checksums. HDF5 would move them to a
 // heap where there are more than eight, and reads beyond its end where that is damaged.
-Handle attributes_in_headers(hid_t kind, const std::string& name) {
-  Handle creation = hdf5::checked(H5Pcreate(kind), H5Pclose, name);
+Handle attributes_in_headers(const std::string& name) {
+  Handle creation = hdf5::checked(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, name);
   constexpr unsigned all = 65535;
   hdf5::check(H5Pset_attr_phase_change(creation.get(), all, 0) >= 0, name);
   return creation;
@@ -124,14 +124,13 @@ ArchiveFile::~ArchiveFile() {
 
 ArchiveFile ArchiveFile::create(const std::string& path, const std::string& name) {
   refuse_open_elsewhere(path, name);
-  const Handle access = latest_format(name),
-               creation = attributes_in_headers(H5P_FILE_CREATE, name);
+  const Handle access = latest_format(name);
   errno = 0;
   // As create_file, by HDF5's own open.
   H5Eclear2(H5E_DEFAULT);
   Handle file;
   if (::unlink(path.c_str()) == 0 || errno == ENOENT)
-    file = Handle(H5Fcreate(path.c_str(), H5F_ACC_EXCL, creation.get(), access.get()), H5Fclose);
+    file = Handle(H5Fcreate(path.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, access.get()), H5Fclose);
   if (!file) {
     const int error = errno;
     if (is_empty(path)) std::remove(path.c_str());  // it was begun, and there was no room
@@ -149,7 +148,7 @@ ArchiveFile ArchiveFile::open(const std::string& path, const std::string& name) 
 }
 
 Handle ArchiveFile::group(const char* path, const char* description) const {
-  const Handle creation = attributes_in_headers(H5P_GROUP_CREATE, name_);
+  const Handle creation = attributes_in_headers(name_);
   Handle group = hdf5::checked(H5Gcreate2(id(), path, H5P_DEFAULT, creation.get(), H5P_DEFAULT),
                                H5Gclose, name_);
   hdf5::write_attribute(group.get(), "description", std::string_view(description), name_);
