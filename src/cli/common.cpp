@@ -154,9 +154,9 @@ void follow_links(Options& options) {
 }
 
 LoadedSystem load(const Options& options, const SystemOverrides& overrides) {
-  // Equilibria are found without any step.
+  // Equilibria are found without any step, and trial runs for one may take minutes.
   SystemOverrides with = options.of_sweep ? SystemOverrides() : overrides;
-  with.choose_step = options.command != "relax";
+  with.choose_step = options.command != "relax" && options.command != "table";
   if (options.of_sweep)
     return read_system(options.of_sweep->system_toml, options.of_sweep->system_name, with);
   if (options.system_text) return read_system(*options.system_text, options.system, with);

@@ -30,7 +30,7 @@ namespace carom::cli {
 namespace {
 
 constexpr const char* needed =
-    "Python with the module carom and matplotlib: ./dev python, or the Debian packages "
+    "Python with the module carom and matplotlib: ./dev python, the wheel, or the Debian packages "
     "python3-carom and python3-matplotlib";
 
 // CAROM_PYTHON names another one.

@@ -167,6 +167,16 @@ bool is_isotropic(const PotentialSpec& s) {
   }
 }
 
+/// Is there a pair whose charges and strength have a negative product?
+bool attract(const std::vector<Particle>& particles, double strength) {
+  const auto positive = std::count_if(particles.begin(), particles.end(),
+                                      [](const Particle&p) { return p.charge > 0.0; }),
+             negative = std::count_if(particles.begin(), particles.end(),
+                                      [](const Particle&p) { return p.charge < 0.0; });
+  return strength > 0.0 ? positive > 0 && negative > 0
+                        : strength < 0.0 && (positive > 1 || negative > 1);
+}
+
 }  // namespace
 
 std::shared_ptr<const ForceField> ForceField::build(
@@ -196,12 +206,10 @@ std::shared_ptr<const ForceField> ForceField::build(
     if (s.kind == InteractionSpec::Kind::hard_discs) {
       field->disc_radii_ = s.radii;
     } else if (particles.size() > 1) {
-      if ((s.kind == InteractionSpec::Kind::coulomb || s.kind == InteractionSpec::Kind::yukawa))
-        for (std::size_t i = 0; i < particles.size(); ++i)
-          for (std::size_t j = 0; j < i; ++j)
-            if (particles[i].charge * particles[j].charge * s.strength < 0.0)
-              throw InputError(s.place, "the particles attract each other without bound",
-                               "charges of one sign and strength > 0");
+      if ((s.kind == InteractionSpec::Kind::coulomb || s.kind == InteractionSpec::Kind::yukawa) &&
+          attract(particles, s.strength))
+        throw InputError(s.place, "the particles attract each other without bound",
+                         "charges of one sign and strength > 0");
       field->interaction_ = make_interaction(s);
       field->pair_range_ = field->interaction_->reach();
       // The Yukawa tail is that of unit charges.
