@@ -57,6 +57,9 @@ class Help : public CLI::Formatter {
   std::string make_footer(const CLI::App* app) const override {
     std::string text;
     for (const std::string& line : lines_of(app->get_footer())) text += folded(line, "") + "\n";
+#if CLI11_VERSION_MINOR >= 4  // whose caller leaves no empty line before it
+    if (!text.empty()) text.insert(0, 1, '\n');
+#endif
     return text;
   }
 

@@ -176,6 +176,8 @@ Outcome with_limit(const Shell& shell, int rank, const std::string& limit,
   return shell("cat > one.sh <<'END'\n[ \"$OMPI_COMM_WORLD_RANK\" = " + std::to_string(rank) +
                " ] && ulimit " + limit + "\nexec \"$@\"\nEND\n" +
                "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+               // Open MPI 5 has its shared memory in files, which the limit would meet first.
+               "OMPI_MCA_btl=self,tcp OMPI_MCA_btl_tcp_if_include=lo PMIX_MCA_gds=hash "
                "ASAN_OPTIONS=detect_leaks=0 timeout 100 mpirun "
                "--oversubscribe "
                "--bind-to none -n 3 bash one.sh " +

@@ -12,7 +12,7 @@ inline bool has_mpi() { return std::system("mpirun --version >/dev/null 2>&1") =
 inline std::string ranks(int n) {
   return n == 0 ? ""
                 : "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
-                  "ASAN_OPTIONS=detect_leaks=0 mpirun "
+                  "OMPI_MCA_btl_tcp_if_include=lo ASAN_OPTIONS=detect_leaks=0 mpirun "
                   "--oversubscribe --bind-to none -n " +
                       std::to_string(n) + " ";
 }
