@@ -31,6 +31,13 @@ void reserve_standard_streams() {
       return;
 }
 
+// What hang-ups do, seen before any library begins: one below MPI (UCX) takes the signal for
+// itself, also from nohup. Debian 13's SUNDIALS brings MPI.
+struct sigaction hangup {};
+void see_hangup(int, char**, char**) { ::sigaction(SIGHUP, nullptr, &hangup); }
+[[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)(int, char**,
+                                                                             char**) = see_hangup;
+
 using carom::cli::Options;
 
 // As a program that knows nothing of pipes: silently, by the signal.
@@ -71,6 +78,7 @@ int status_of(const Options& options, bool& closed) {
 
 int main(int argc, char** argv) {
   using namespace carom::cli;
+  ::sigaction(SIGHUP, &hangup, nullptr);
   reserve_standard_streams();
   try {
 #ifdef CAROM_MPI
