@@ -1,4 +1,4 @@
-// Ranks by MPI: a part of the program alone.
+// Ranks by MPI: a part of carom-mpi alone.
 #include <mpi.h>
 #include <unistd.h>
 
