@@ -28,9 +28,9 @@ int rank_by_environment();
 /// say on standard error is seen. False: their streams cannot be closed.
 bool keep_silent();
 void speak();
-/// Where mpirun has started this process with others, carom-mpi beside the program, the same program
-/// linked with MPI, takes its place: MPI's libraries cost every other start a fifth of its time.
-/// Returns where there is no need, or no such program.
+/// Where mpirun has started this process with others, carom-mpi beside the program, the same
+/// program linked with MPI, takes its place: MPI's libraries cost every other start a fifth of its
+/// time. Returns where there is no need, or no such program.
 void hand_over_to_mpi(char** arguments);
 /// Called once by carom-mpi: what starts MPI.
 void start_ranks_by(Ranks& (*start)());
