@@ -92,26 +92,24 @@ auto quick(Numbers... x) {
 }
 #endif
 
+template <class Function>
+double of_angle(double x, double (*exactly)(double)) {
+  if (std::fabs(x) < fast::largest_angle) {
+    const Result<double> r = quick<Function>(x);
+    if (r.spread == 0.0) [[likely]]
+      return r.value;
+  }
+  return exactly(x);
+}
+
 }  // namespace
 
 double sin(double x) {
-  if (std::fabs(x) < fast::least_angle) return x;
-  if (std::fabs(x) < fast::largest_angle) {
-    const Result<double> r = quick<Sine>(x);
-    if (r.spread == 0.0) [[likely]]
-      return r.value;
-  }
-  return exact::sin(x);
+  return std::fabs(x) < fast::least_angle ? x : of_angle<Sine>(x, exact::sin);
 }
 
 double cos(double x) {
-  if (std::fabs(x) < fast::least_angle) return 1.0;
-  if (std::fabs(x) < fast::largest_angle) {
-    const Result<double> r = quick<Cosine>(x);
-    if (r.spread == 0.0) [[likely]]
-      return r.value;
-  }
-  return exact::cos(x);
+  return std::fabs(x) < fast::least_angle ? 1.0 : of_angle<Cosine>(x, exact::cos);
 }
 
 SinCos sincos(double x) {

@@ -64,13 +64,15 @@ fast::Two<double> in_two(Find find) {
   mpfr_sub_d(all, all, high, MPFR_RNDN);
   return {high, mpfr_get_d(all, MPFR_RNDN)};
 }
+/// find(x, i) computes the entry of row i.
 template <class Table, class Find>
-void fill(Table& table, Find find) {
+Table filled(Find find, Table table = {}) {
   for (std::size_t i = 0; i < table.high.size(); ++i) {
     const fast::Two<double> value = in_two([&](mpfr_ptr all) { find(all, i); });
     table.high[i] = value.high;
     table.low[i] = value.low;
   }
+  return table;
 }
 
 }  // namespace
@@ -92,14 +94,10 @@ double atan2(double y, double x) {
 namespace fast {
 
 const ExpTable& exp_table() {
-  static const ExpTable table = [] {
-    ExpTable t;
-    fill(t, [](mpfr_ptr x, std::size_t j) {
-      mpfr_set_d(x, static_cast<double>(j) / 16, MPFR_RNDN);
-      mpfr_exp2(x, x, MPFR_RNDN);
-    });
-    return t;
-  }();
+  static const auto table = filled<ExpTable>([](mpfr_ptr x, std::size_t j) {
+    mpfr_set_d(x, static_cast<double>(j) / 16, MPFR_RNDN);
+    mpfr_exp2(x, x, MPFR_RNDN);
+  });
   return table;
 }
 
@@ -110,38 +108,31 @@ const LogTable& log_table() {
       const double middle = 1.0 + (static_cast<double>(i) + 0.5) / 256;
       t.c[i] = i == 0 ? 1.0 : std::floor(512 / middle + 0.5) / 512;
     }
-    fill(t, [&t](mpfr_ptr x, std::size_t i) {
-      mpfr_set_d(x, i < halves ? t.c[i] : 2 * t.c[i], MPFR_RNDN);
-      mpfr_log(x, x, MPFR_RNDN);
-      mpfr_neg(x, x, MPFR_RNDN);
-    });
-    return t;
+    return filled<LogTable>(
+        [&t](mpfr_ptr x, std::size_t i) {
+          mpfr_set_d(x, i < halves ? t.c[i] : 2 * t.c[i], MPFR_RNDN);
+          mpfr_log(x, x, MPFR_RNDN);
+          mpfr_neg(x, x, MPFR_RNDN);
+        },
+        t);
   }();
   return table;
 }
 
 const SineTable& sine_table() {
-  static const SineTable table = [] {
-    SineTable t;
-    fill(t, [](mpfr_ptr x, std::size_t k) {
-      mpfr_const_pi(x, MPFR_RNDN);
-      mpfr_mul_d(x, x, static_cast<double>(k) / 256, MPFR_RNDN);
-      mpfr_sin(x, x, MPFR_RNDN);
-    });
-    return t;
-  }();
+  static const auto table = filled<SineTable>([](mpfr_ptr x, std::size_t k) {
+    mpfr_const_pi(x, MPFR_RNDN);
+    mpfr_mul_d(x, x, static_cast<double>(k) / 256, MPFR_RNDN);
+    mpfr_sin(x, x, MPFR_RNDN);
+  });
   return table;
 }
 
 const AngleTable& angle_table() {
-  static const AngleTable table = [] {
-    AngleTable t;
-    fill(t, [](mpfr_ptr x, std::size_t k) {
-      mpfr_set_d(x, static_cast<double>(k) / 64, MPFR_RNDN);
-      mpfr_atan(x, x, MPFR_RNDN);
-    });
-    return t;
-  }();
+  static const auto table = filled<AngleTable>([](mpfr_ptr x, std::size_t k) {
+    mpfr_set_d(x, static_cast<double>(k) / 64, MPFR_RNDN);
+    mpfr_atan(x, x, MPFR_RNDN);
+  });
   return table;
 }
 

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "base/kernel/elementary_kernel.hpp"
 #include "carom/base/elementary.hpp"
 
 namespace carom {
@@ -57,6 +58,41 @@ TEST(ElementarySpans, AnglesHaveTheBitsOfOneByOne) {
                   std::bit_cast<std::uint64_t>(i < n ? elementary::atan2(y[i], x) : y[i]))
             << y[i] << " at " << i << " of " << n;
     }
+}
+
+// Of 8, 4 and 2 numbers, as far as the processor has them.
+TEST(ElementarySpans, EveryWidthOfRegistersHasTheBitsOfOneByOne) {
+  using base::atan2_of_many;
+  std::mt19937_64 generator(6);
+  std::uniform_real_distribution<double> exponent(-760.0, 720.0), side(-1e3, 1e3);
+  std::vector<void (*)(double*, double, std::size_t)> angles{atan2_of_many<2>};
+#if defined(__x86_64__) && !defined(__clang__)
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    angles.push_back(atan2_of_many<4>);
+  if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+    angles.push_back(atan2_of_many<8>);
+#endif
+  for (int repeat = 0; repeat < 500; ++repeat) {
+    std::vector<double> x(136), y(136);
+    for (double& one : x) one = exponent(generator);
+    for (double& one : y) one = side(generator);
+    for (const int width : {2, 4, 8}) {
+      std::vector<double> at_once = x;
+      elementary::exp_by(width)(at_once.data(), at_once.size());
+      for (std::size_t i = 0; i < x.size(); ++i)
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(at_once[i]),
+                  std::bit_cast<std::uint64_t>(elementary::exp(x[i])))
+            << x[i] << " by " << width;
+    }
+    for (const auto of_many : angles) {
+      std::vector<double> at_once = y;
+      of_many(at_once.data(), 1.3, at_once.size());
+      for (std::size_t i = 0; i < y.size(); ++i)
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(at_once[i]),
+                  std::bit_cast<std::uint64_t>(elementary::atan2(y[i], 1.3)))
+            << y[i];
+    }
+  }
 }
 
 }  // namespace
