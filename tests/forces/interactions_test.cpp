@@ -178,6 +178,8 @@ TEST(Interactions, AttractionWithoutBoundIsRefused) {
     EXPECT_THROW(ForceField::build(spec, p, std::nullopt), InputError);
     spec.interaction->strength = -1.0;
     EXPECT_NO_THROW(ForceField::build(spec, p, std::nullopt));
+    EXPECT_THROW(ForceField::build(spec, {p[0], p[0]}, std::nullopt), InputError);
+    EXPECT_NO_THROW(ForceField::build(spec, {p[0], Particle{.charge = 0.0}}, std::nullopt));
   }
 }
 
