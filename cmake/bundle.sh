@@ -45,12 +45,13 @@ collect() {
   done
 }
 
-# The licences of what a folder of libraries holds: Debian's files of the packages that they come from.
+# The licences of what a folder of libraries holds, and of further ones: Debian's files of the packages that they come from.
 licences() {
   local folder=$1 library package
+  shift
   mkdir -p "$folder/licences"
-  for library in $(ls "$folder" | grep -vE "libc(url|rypto)\."); do
-    package=$(dpkg-query -S "*/$library" 2>/dev/null | sed -n '1s/:.*//p') || true
+  for library in $(ls "$folder" | grep -vE "libc(url|rypto)\.") "$@"; do
+    package=$(dpkg-query -S "*/$(gcc -print-multiarch)/$library" 2>/dev/null | sed -n '1s/:.*//p') || true
     [[ -z $package ]] || cp -L "/usr/share/doc/$package/copyright" "$folder/licences/$package"
   done
 }
@@ -74,7 +75,7 @@ LAUNCHER
   cp -r "$source/examples" "$folder/examples"
   cp "$build/manual/carom.1" "$folder"
   [[ ! -d $source/build/docs/html ]] || cp -r "$source/build/docs/html" "$folder/docs"
-  licences "$folder/lib"
+  licences "$folder/lib" libhdf5_serial.a libgsl.a libsundials_cvode.a  # archives.cmake
   tar -C "$work" --owner=0 --group=0 --sort=name -cf - "$name" | gzip -9n >"$target/$name.tar.gz"
 }
 

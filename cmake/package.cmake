@@ -8,6 +8,10 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")  # the first lin
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+cmake_host_system_information(RESULT system QUERY DISTRIB_VERSION_ID)  # each Debian has libraries of its own
+if(system)
+  set(CPACK_DEBIAN_PACKAGE_RELEASE 1~deb${system})
+endif()
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_COMPONENTS_ALL program library)
 
@@ -25,8 +29,12 @@ libcarom-dev).")
 # The libraries are static: whoever links them needs what find_package(carom) looks for.
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libcarom-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
-string(JOIN ", " CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS libflint-arb-dev libflint-dev libfmt-dev libgmp-dev libgsl-dev libhdf5-dev
-  libisal-dev libmpfr-dev libsundials-dev libtomlplusplus-dev zlib1g-dev)
+set(library_needs libflint-dev libfmt-dev libgmp-dev libgsl-dev libhdf5-dev libisal-dev libmpfr-dev libsundials-dev
+  libtomlplusplus-dev zlib1g-dev)
+if(ARB_LIBRARY)
+  list(PREPEND library_needs libflint-arb-dev)
+endif()
+string(JOIN ", " CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS ${library_needs})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SUGGESTS carom)
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "Headers, carom::carom and carom::geometry, found by find_package(carom).")
 

@@ -5,10 +5,11 @@ set -euo pipefail
 
 usage() {
   cat <<'END'
-./dev bare [--debian 12|13] [--no-test | --packages] [--keep] [FOLDER]
+./dev bare [--debian 12|13] [--no-test | --release | --packages] [--keep] [FOLDER]
   FOLDER      where the small Debian is made (default: build/bare); it must not exist
   --debian    12 (default) or 13
   --no-test   only ./dev run escape magnetic-square
+  --release   run ./dev release there, of what is committed: its Debian packages and its wheel land in build/packages
   --packages  install each package of ./dev release, use it, remove it: nothing may be left
   --keep      leave the folder for a look around
 Fails if a command fails there or the first result takes longer than 6 minutes.
@@ -24,6 +25,7 @@ while [[ $# -gt 0 ]]; do
   case $1 in
     --debian) debian=${2-}; [[ $# -gt 1 ]] && shift ;;
     --no-test) what=run ;;
+    --release) what=release ;;
     --packages) what=packages ;;
     --keep) keep=yes ;;
     -h | --help) usage; exit ;;
@@ -42,6 +44,14 @@ if [[ $what == packages ]]; then
   exit
 fi
 make_debian
+if [[ $what == release ]]; then
+  rmdir "$folder/carom"
+  git clone --quiet --depth 1 "file://$root" "$folder/carom"
+  inside ./dev release </dev/null
+  mkdir -p "$root/build/packages"
+  cp "$folder"/carom/build/packages/*.{deb,whl} "$root/build/packages"
+  exit
+fi
 git -C "$root" ls-files -z | (cd "$root" && xargs -0 cp --parents -t "$folder/carom")
 
 begin=$SECONDS

@@ -1,7 +1,8 @@
 # ./dev bare --packages: each package of ./dev release is installed in a minimal Debian, used and removed. A package
 # must bring what it needs, so it is installed with its dependencies alone; what was there before must be there after it.
 packages=$root/build/packages
-compgen -G "$packages/*.deb" >/dev/null || die "no packages in $packages: ./dev release makes them"
+compgen -G "$packages/*~deb$debian"_*.deb >/dev/null ||
+  die "no packages for Debian $debian in $packages: ./dev release makes them, or ./dev bare --debian $debian --release"
 
 quiet_apt() {
   inside env DEBIAN_FRONTEND=noninteractive apt-get -y --no-install-recommends "$@" </dev/null >"$folder/carom/apt.log" 2>&1 ||
@@ -17,7 +18,7 @@ list_files() {
 # Installs what the package needs, then the package; runs use_NAME; purges it and compares the files.
 try() {
   local package=$1 deb needed begin=$SECONDS
-  deb=$(basename "$packages/${package}"_*.deb)
+  deb=$(basename "$packages/${package}"_*"~deb$debian"_*.deb)
   cp "$packages/$deb" "$folder/carom"
   mapfile -t needed < <(inside apt-get -s --no-install-recommends install "./$deb" |
     sed -n 's/^Inst \([^ ]*\).*/\1/p' | grep -vx "$package")
