@@ -3,13 +3,15 @@
 import numpy
 
 from . import _carom
-from .axes import COLOURS, new_axes, plain, title
+from .axes import COLOURS, colour_of, legend, new_axes, plain, scale_of, style_of, subplots, symbol, title, title_above, with_error
 from .errors import InputError
+from .tables import table
 
 
-def sweep(result, ax=None, y=None):
+def sweep(result, ax=None, y=None, **style):
     """A column of a sweep's table against its key, with error bars; of a plane a map. y: the column
-    (default: the first with errors)."""
+    (default: the first with errors that every value has). Rates and exponents have a marker for each
+    law, and no line joins different laws; a hollow one is undecided."""
     table = result.table
     keys = [one["key"] for one in result._json["keys"]]
     numbers = [name for name in table.dtype.names if table[name].dtype.kind == "f"]
@@ -18,32 +20,75 @@ def sweep(result, ax=None, y=None):
         with_errors = [name for name in others if f"{name}_stderr" in numbers]
         if not others:
             raise InputError("no value of the sweep has a number to draw; its reports say why")
-        y = (with_errors or others)[0]
+        y = max(with_errors or others, key=lambda name: numpy.count_nonzero(numpy.isfinite(table[name])))
     ax = new_axes(ax)
     if len(keys) == 1:
-        known = numpy.isfinite(table[y])
-        error = table[f"{y}_stderr"][known] if f"{y}_stderr" in numbers else None
-        ax.errorbar(
-            table[keys[0]][known], table[y][known], yerr=error, fmt="o-", markersize=4, linewidth=1,
-            capsize=2, color=COLOURS[0],
-        )  # fmt: skip
-        ax.set(xlabel=plain(keys[0]), ylabel=y)
+        _line(ax, table, keys[0], y, style)
+        ax.set(xlabel=symbol(keys[0]), ylabel=symbol(y))
     else:
         first, second = (numpy.unique(table[key]) for key in keys)
         values = numpy.full((len(first), len(second)), numpy.nan)
         values[numpy.searchsorted(first, table[keys[0]]), numpy.searchsorted(second, table[keys[1]])] = table[y]
-        colours = ax.pcolormesh(first, second, values.T, shading="nearest")
-        ax.figure.colorbar(colours, ax=ax, label=y)
-        ax.set(xlabel=plain(keys[0]), ylabel=plain(keys[1]))
+        ax.set_facecolor("0.9")  # no value
+        colours = ax.pcolormesh(first, second, values.T, shading="nearest", norm=scale_of(values))
+        ax.figure.colorbar(colours, ax=ax, label=symbol(y))
+        ax.set(xlabel=symbol(keys[0]), ylabel=symbol(keys[1]))
+        for values, scale in ((first, ax.set_xscale), (second, ax.set_yscale)):
+            if _geometric(values):
+                scale("log")
     title(ax, result.system)
     return ax
 
 
+def _line(ax, table, key, y, style):
+    """Values with errors, in runs without a gap and of one law."""
+    laws = table["model"] if y in ("rate", "exponent") and "model" in table.dtype.names else numpy.full(len(table), "")
+    order = numpy.argsort(table[key])
+    known = numpy.isfinite(table[y])
+    names = [law for law in dict.fromkeys(laws[order]) if known[laws == law].any()]
+    parts = []
+    for i in order:
+        joined = parts and known[i] and parts[-1] and laws[parts[-1][-1]] == laws[i]
+        if not joined:
+            parts.append([])
+        if known[i]:
+            parts[-1].append(i)
+    for part in filter(None, parts):
+        number = names.index(laws[part[0]])
+        error = table[f"{y}_stderr"][part] if f"{y}_stderr" in table.dtype.names else None
+        usual = {"color": COLOURS[number % len(COLOURS)], "label": plain(laws[part[0]]), "markersize": 4}
+        fmt = "-" + "osD^vP"[number % 6]
+        ax.errorbar(
+            table[key][part], table[y][part], yerr=error, fmt=fmt, capsize=2, elinewidth=0.9, **style_of(style, **usual)
+        )
+    if len(names) > 1 or "label" in style:
+        handles, labels = ax.get_legend_handles_labels()
+        legend(ax, *zip(*dict(zip(labels, handles)).items(), strict=True)[::-1])
+    if _geometric(table[key][order]):
+        ax.set_xscale("log")
+    if y == "survival" and scale_of(table[y][known]) == "log":
+        ax.set_yscale("log")
+
+
+def _geometric(values):
+    """Have neighbours about the same ratio, over more than a decade?"""
+    if len(values) < 4 or values[0] <= 0 or values[-1] < 10 * values[0]:
+        return False
+    ratios = values[1:] / values[:-1]
+    return ratios.max() < 1.5 * ratios.min()
+
+
 def lyapunov(result, ax=None):
-    """How the finite-time exponents of the orbits are distributed, and their mean."""
+    """How the finite-time exponents of the orbits are distributed, and their mean. Of fewer than ten
+    orbits the exponent of each."""
     ax = new_axes(ax)
     bins = result.distribution
-    if len(bins):
+    few = bins["count"].sum() < 10
+    if few:
+        for one in bins[bins["count"] > 0]:
+            ax.axvline((one["from"] + one["to"]) / 2, ymax=0.3, color=COLOURS[0], linewidth=1)
+        ax.set_yticks([])
+    elif len(bins):
         edges, counts = _coarser(bins)
         ax.stairs(counts / (counts.sum() * numpy.diff(edges)), edges, fill=True, color=COLOURS[0])
         ax.ticklabel_format(useOffset=False)
@@ -52,12 +97,13 @@ def lyapunov(result, ax=None):
         known = error is not None and error > 0
         ax.axvline(
             value, color=COLOURS[1], linewidth=1,
-            label=f"λ = {value:.5g}" + (f" ± {error:.1g}" if known else ""),
+            label=f"λ = {with_error(value, error if known else 0.0)}",
         )  # fmt: skip
+        if known:
+            ax.axvspan(value - error, value + error, color=COLOURS[1], alpha=0.2, linewidth=0)
         ax.margins(y=0.15)
-        ax.legend(fontsize="small", frameon=False)
-    ax.set_xlabel("exponent of an orbit")
-    ax.set_ylabel("density")
+        legend(ax, fontsize="small")
+    ax.set(xlabel="exponent of an orbit", ylabel="" if few else "density")
     title(ax, result.system)
     return ax
 
@@ -74,7 +120,7 @@ def spectrum(result, ax=None):
             linewidth=1, color=COLOURS[0],
             label=f"entropy {result.entropy.value:.4g}: sum of the positive ones",
         )  # fmt: skip
-        ax.legend(fontsize="small", frameon=False)
+        legend(ax, fontsize="small")
         ax.xaxis.get_major_locator().set_params(integer=True)
     ax.set(xlabel="number of the exponent", ylabel="exponent")
     title(ax, result.system)
@@ -91,26 +137,58 @@ def _coarser(bins):
 
 
 def orbits(result, ax=None, most=12):
-    """The table with periodic orbits, the first `most` of them; of families one member. Of a lattice
-    all cells that they cross."""
-    from .plot import table
+    """Periodic orbits, the first `most` of them, each in a table of its own with its word, period and the
+    larger multiplier; with `ax` all in one. Of families one member, dashed. Of a lattice all cells that
+    an orbit crosses."""
+    shown = result.json["orbits"][:most]
+    if ax is not None or len(shown) < 2:
+        ax = new_axes(ax)
+        _orbits(result, ax, range(len(shown)))
+        title(ax, result.system)
+        return ax
+    across = min(4, len(shown))
+    down = -(-len(shown) // across)
+    figure, axes = subplots(down, across, figsize=(2.1 * across, 0.4 + 2.3 * down), squeeze=False)
+    for place in axes.flat[len(shown):]:
+        place.remove()
+    words = _words(result)
+    for number, one in enumerate(shown):
+        place = axes.flat[number]
+        _orbits(result, place, [number])
+        place.set(xticks=[], yticks=[], xlabel="", ylabel="")
+        place.spines[:].set_visible(False)
+        multiplier = one["multipliers"][0]
+        size = "" if one["family"] else f", Λ = {multiplier[0]:.4g}" + (f" ± {multiplier[1]:.3g} i" if multiplier[1] else "")
+        place.set_title(f"{words[number]}\nT = {one['period']:.5g}{size}", fontsize="small")
+    title_above(figure, result.system)
+    return axes.flatten()[: len(shown)]
 
+
+def _words(result):
+    """The walls that each orbit hits, by numbers in the order of the table where these are digits."""
+    names = [name for name in result.system.walls]
+    words = [one["walls"] for one in result.json["orbits"]]
+    met = [name for name in names if any(name in word for word in words)]
+    if len(met) > 9:
+        return [f"{len(word)} hits" for word in words]
+    return ["".join(str(1 + met.index(name)) for name in word) for word in words]
+
+
+def _orbits(result, ax, numbers):
+    """The table with some of the orbits."""
     cells = {(0, 0)}
-    for one in result.json["orbits"][:most]:
-        steps = [point.get("step", (0, 0)) for point in one["points"]]
+    for number in numbers:
+        steps = [point.get("step", (0, 0)) for point in result.json["orbits"][number]["points"]]
         cells |= {tuple(cell) for cell in numpy.cumsum([(0, 0), *steps], axis=0).tolist()}
-    ax = table(
-        result.system, ax=ax, names=False, levels=False, directions=False, starts=0, cells=sorted(cells)
+    table(
+        result.system, ax=ax, names=False, levels=False, directions=False, field=False, starts=0, cells=sorted(cells)
     )
     (omega,) = _carom.omegas(result._outcome.system)
-    for number, rows in enumerate(result.paths[:most]):
-        path = _carom.path(rows, omega)
+    for number in numbers:
+        path = _carom.path(result.paths[number], omega)
         family = result.json["orbits"][number]["family"]
-        ax.plot(
-            path["x"], path["y"], color=COLOURS[number % len(COLOURS)], linewidth=0.9, zorder=2,
-            linestyle="--" if family else "-",
-        )  # fmt: skip
-    return ax
+        colour = colour_of(number, len(numbers)) if len(numbers) > 1 else COLOURS[0]
+        ax.plot(path["x"], path["y"], color=colour, linewidth=0.9, zorder=2, linestyle="--" if family else "-")
 
 
 def comparison(result, ax=None, of="error_state"):
@@ -139,31 +217,37 @@ def comparison(result, ax=None, of="error_state"):
     ax.set_yscale("log")
     ax.set_xlabel("force evaluations")
     ax.set_ylabel(of.replace("_", " of the ") if of.startswith("error_") else of)
-    ax.legend(fontsize="x-small", frameon=False, loc="center left", bbox_to_anchor=(1, 0.5))
+    legend(ax, fontsize="x-small", loc="center left", bbox_to_anchor=(1, 0.5))
     title(ax, result.system)
     return ax
 
 
 def equilibria(found, ax=None, most=4):
-    """The places of the particles at the lowest equilibria, over the level lines of the potential."""
-    from .plot import table
+    """The places of the particles at the lowest equilibria, over the level lines of the potential, each in
+    a picture of its own; with `ax` the lowest one."""
+    shown = found.equilibria[: most if ax is None else 1]
+    if ax is not None or len(shown) < 2:
+        ax = new_axes(ax)
+        _equilibrium(found, ax, shown)
+        title(ax, found.system)
+        return ax
+    figure, axes = subplots(1, len(shown), figsize=(2.4 * len(shown), 3.2))
+    for number, place in enumerate(axes):
+        _equilibrium(found, place, shown[number : number + 1], found.equilibria[:most])
+        place.set(ylabel="" if number else "y")
+        place.set_title(f"{shown[number].kind}\nE = {shown[number].energy:.8g}", fontsize="small")
+    title_above(figure, found.system)
+    return axes
 
-    ax = table(found.system, ax=ax, names=False, directions=False, starts=0)
-    shown = found.equilibria[:most]
-    for number, one in enumerate(shown):
-        x, y = numpy.array(one.positions).T
-        ax.plot(
-            x, y, "o", color=COLOURS[number % len(COLOURS)], markersize=8 - 1.5 * number, zorder=5 + number,
-            markeredgecolor="white", label=f"{one.kind}, {one.energy:.8g}",
-        )  # fmt: skip
-    if shown:
-        places = numpy.concatenate([numpy.array(one.positions) for one in shown])
-        room = 0.3 * max(numpy.ptp(places, axis=0).max(), 1e-300)
-        if not len(found.system.walls):
-            ax.set_xlim(places[:, 0].min() - room, places[:, 0].max() + room)
-            ax.set_ylim(places[:, 1].min() - room, places[:, 1].max() + room)
-        ax.legend(
-            fontsize="x-small", title="energy", title_fontsize="x-small", loc="upper left",
-            bbox_to_anchor=(1.0, 1.0), frameon=False,
-        )  # fmt: skip
-    return ax
+
+def _equilibrium(found, ax, shown, others=()):
+    """Particles at an equilibrium; the picture has room for those of the others, too."""
+    if shown and not len(found.system.walls):
+        places = numpy.concatenate([numpy.array(one.positions) for one in (*shown, *others)])
+        reach = 1.3 * max(numpy.abs(places - places.mean(axis=0)).max(), 1e-300)
+        x, y = places.mean(axis=0)
+        ax.plot([x - reach, x + reach], [y - reach, y + reach], " ")
+        ax.margins(0.0)
+    table(found.system, ax=ax, names=False, directions=False, starts=0)
+    for one in shown:
+        ax.plot(*numpy.array(one.positions).T, "o", color=COLOURS[0], markersize=6, zorder=5, markeredgecolor="white")

@@ -4,26 +4,30 @@ import os
 
 import numpy
 
-from . import _carom, plot, results
+from . import _carom, results
+from .axes import colour_of, pyplot
 from .commands import _as_system, run
 from .errors import InputError
+from .tables import draw_levels, fit, make_room, table
 
 ENDINGS = (".gif", ".mp4")
 
 
-def animate(thing, output=None, *, t_max=None, frames=100, fps=20, trail=10, dpi=100, **keywords):
+def animate(
+    thing, output=None, *, t_max=None, frames=100, fps=20, trail=10, dpi=100, progress=None, **keywords
+):
     """A film of the particles of a `carom.Run` or of a system, which is run: a
     matplotlib.animation.FuncAnimation.
 
     output: a name ending in .gif or .mp4 that it is saved as. t_max (time): where it ends; of a
     run its end or its hundredth hit, of a system that of twenty mean flights. frames: their
-    number; fps: frames a second; trail: frames that a particle's way stays visible. Keywords: keys
-    of a system file.
+    number; fps: frames a second; trail: frames that a particle's way stays visible. progress: called
+    with the number of frames that are saved. Keywords: keys of a system file.
     """
     if output is not None:
         output = os.fspath(output)
         check(output)
-    pyplot = plot._pyplot()
+    plt = pyplot()
     from matplotlib import animation
 
     if not isinstance(thing, results.Run):
@@ -41,23 +45,16 @@ def animate(thing, output=None, *, t_max=None, frames=100, fps=20, trail=10, dpi
         [omegas[p] if free else 0.0 for p in particles],
         list(times),
     )
-    ax = plot.orbit(thing, most_hits=100)
-    lines = [line for line in ax.get_lines() if line.get_zorder() in (2, 4)]
-    limits = ax.get_xlim(), ax.get_ylim()
-    for drawn in (*lines, *ax.patches):
-        drawn.remove()
-    ax.set(xlim=limits[0], ylim=limits[1])
-    ax.figure.draw_without_rendering()
-    ax.figure.set_layout_engine("none")  # what it has laid out is kept: once is enough for all frames
+    ax = _stage(thing, where)
     clock = ax.annotate("", (0, 0), xycoords="axes fraction", xytext=(0, -22), va="top",
                         textcoords="offset points", fontsize="x-small", color="0.35")  # fmt: skip
-    colours = [plot.COLOURS[p % len(plot.COLOURS)] for p in particles]
+    colours = [colour_of(i, len(particles)) for i in range(len(particles))]
     ways = [ax.plot([], [], color=c, linewidth=0.8, alpha=0.6, zorder=2)[0] for c in colours]
     dots = [ax.plot([], [], "o", color=c, markersize=5, zorder=4)[0] for c in colours]
     paths = [thing.path(p) for p in particles]
     # Hard discs are drawn as large as they are.
     discs = [
-        ax.add_patch(pyplot.Circle((0, 0), radius, color=c, alpha=0.5, linewidth=0, zorder=3))
+        ax.add_patch(plt.Circle((0, 0), radius, color=c, alpha=0.5, linewidth=0, zorder=3))
         for radius, c in zip(_carom.disc_radii(thing._outcome.system), colours)
     ]
 
@@ -75,8 +72,23 @@ def animate(thing, output=None, *, t_max=None, frames=100, fps=20, trail=10, dpi
 
     film = animation.FuncAnimation(ax.figure, show, frames=frames, interval=1000 / fps)
     if output is not None:
-        film.save(output, writer=_writer(output, fps), dpi=dpi)
+        told = None if progress is None else lambda frame, _: progress(frame + 1)
+        film.save(output, writer=_writer(output, fps), dpi=dpi, progress_callback=told)
     return film
+
+
+def _stage(run, where):
+    """The table, with room for all places of the particles: of a lattice the cells that they visit."""
+    cells = {(0, 0), *zip(run.samples["cell_first"].tolist(), run.samples["cell_second"].tolist())}
+    cells |= set(zip(run.hits["cell_first"][:2000].tolist(), run.hits["cell_second"][:2000].tolist()))
+    ax = table(run.system, names=False, cells=cells if len(cells) <= 400 else [(0, 0)], levels=False, directions=False, starts=0)
+    ax.update_datalim(where[numpy.isfinite(where).all(axis=2)])
+    make_room(ax, 0.04)
+    draw_levels(run.system._loaded("table"), ax)
+    fit(ax)
+    ax.figure.draw_without_rendering()
+    ax.figure.set_layout_engine("none")  # what it has laid out is kept: once is enough for all frames
+    return ax
 
 
 def check(output):

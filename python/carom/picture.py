@@ -24,8 +24,7 @@ def draw(source, what=None):
         raise carom.InputError(
             f"{source}: a certified run has no picture", (source, 0, 0, ""), "the same run in doubles"
         )
-    axes = carom.plot.result(thing, what=what)
-    return (axes[0] if hasattr(axes, "__len__") else axes).figure
+    return carom.plot.result(thing, what=what).figure
 
 
 def animate(source, output):
@@ -35,7 +34,17 @@ def animate(source, output):
         raise carom.InputError(
             f"{source} has no moving particles", (source, 0, 0, ""), "a system, or the archive of carom run"
         )
-    carom.animate(thing, output)
+    carom.animate(thing, output, progress=_counter() if sys.stderr.isatty() else None)
+
+
+def _counter(frames=100):
+    """Shows on a terminal how many frames are made."""
+
+    def show(frame):
+        sys.stderr.write(f"\rframe {frame} of {frames}" if frame < frames else "\r\033[K")
+        sys.stderr.flush()
+
+    return show
 
 
 def main():
@@ -44,6 +53,10 @@ def main():
     except carom.InputError as error:
         expected = f" (expected {error.expected})" if error.expected not in str(error) else ""
         sys.exit(f"carom: {error}{expected}")
+    except IndexError as error:  # of Pillow, which ends a film without a frame so
+        if isinstance(error.__context__, SystemExit):
+            raise error.__context__ from None
+        raise
 
 
 def make():

@@ -1,166 +1,48 @@
 """Pictures, by matplotlib: tables, orbits, energies, survival, rates, basins, diffusion, sections
 (analyses.py: sweeps, exponents, periodic orbits, equilibria, integrators; transport.py: diffusion).
 
-`thing.plot()` chooses among these functions; all of them return the axes and take `ax`.
-Colours can be told apart by people who see few of them (Okabe and Ito).
+`thing.plot()` chooses among these functions. All of them return the axes, or an array of them where a
+picture has several, with their `figure`; all take `ax`. STYLE is the look of new figures.
 """
 
+import re
 import warnings
 
 import numpy
 
 from . import _carom
 from .analyses import comparison, equilibria, lyapunov, orbits, spectrum, sweep
-from .axes import COLOURS
+from .axes import COLOURS, STYLE
+from .axes import colour_of as _colour_of
+from .axes import legend as _legend
 from .axes import new_axes as _new_axes
 from .axes import plain as _plain
 from .axes import pyplot as _pyplot
+from .axes import style_of as _style_of
+from .axes import subplots as _subplots
+from .axes import symbol as _symbol
 from .axes import title as _title
+from .axes import title_above as _title_above
 from .axes import title_of as _title_of
+from .axes import with_error as _with_error
 from .errors import InputError, text_of
 from .system import System
+from .tables import WALL as _WALL
+from .tables import arrow as _arrow
+from .tables import draw_levels as _levels
+from .tables import fit as _fit
+from .tables import table
 from .transport import correlation, diffusion, free_paths, returns
 
-_WALL = "#222222"
-
-
-def table(
-    system, ax=None, names=True, cells=((0, 0),), levels=True, directions=True, field=True, starts=None
-):
-    """Walls with the direction of their arc length, holes (dashed, with their names), the sense of
-    the field, level lines of the potentials; of a lattice these cells. starts: this many
-    trajectories' starts as dots with their directions; None: those that the system lists."""
-    made = ax is None
-    ax = _new_axes(ax)
-    loaded = system._loaded("table")
-    walls = _carom.walls(loaded)
-    for shift in _carom.translations(loaded, list(cells)):
-        for edge in _carom.cell(loaded):
-            ax.plot(*(edge + shift).T, color="0.6", linewidth=0.8, linestyle=":", zorder=1)
-        for _, pieces, holes in walls:
-            for piece in pieces:
-                ax.plot(*(piece + shift).T, color=_WALL, linewidth=1.4, zorder=3)
-            for _, piece in holes:
-                hole = {"color": COLOURS[1], "linewidth": 1.4, "linestyle": (0, (2, 1.5))}
-                ax.plot(*(piece + shift).T, zorder=3, **hole)
-    if levels:
-        _levels(system, loaded, ax)
-    if starts is None:
-        starts = min(_carom.listed(loaded), 100)
-    if starts:
-        _starts(_carom.starts(loaded, starts), ax)
-    ax.set_aspect("equal")
-    ax.set_xlabel("x")
-    ax.set_ylabel("y")
-    _title(ax, system)
-    if made:
-        _fit(ax)
-    if directions and len(walls) <= 12:
-        for _, pieces, _ in walls:
-            if pieces:
-                _arrow(ax, max(pieces, key=len))
-    if field:
-        _field(loaded, ax)
-    if names:
-        labels = [(h, piece[len(piece) // 2], COLOURS[1]) for _, _, hs in walls for h, piece in hs]
-        if len(walls) <= 12:
-            for name, pieces, _ in walls:
-                if pieces:
-                    labels.append((name, _at(max(pieces, key=len), 0.5), "0.45"))
-        _labels(ax, labels)
-    return ax
-
-
-def _at(points, share):
-    """The point of a piece of wall after this share of it."""
-    steps = numpy.hypot(*numpy.diff(points, axis=0).T)
-    along = numpy.concatenate([[0.0], numpy.cumsum(steps)])
-    where = share * along[-1]
-    return numpy.array([numpy.interp(where, along, points[:, i]) for i in (0, 1)])
-
-
-def _fit(ax):
-    """A figure as high as its table."""
-    width, height = numpy.diff(ax.get_xlim())[0], numpy.diff(ax.get_ylim())[0]
-    ax.figure.set_size_inches(5.0, float(numpy.clip(0.8 + 4.2 * height / width, 1.8, 6.5)))
-
-
-def _arrow(ax, piece):
-    """The direction of arc length, at three quarters of a piece of wall."""
-    tip, foot = _at(piece, 0.76), _at(piece, 0.74)
-    style = {"arrowstyle": "-|>", "color": _WALL, "linewidth": 0, "mutation_scale": 11, "shrinkA": 0, "shrinkB": 0}
-    ax.annotate("", tip, foot, arrowprops=style, zorder=4)
-
-
-def _field(loaded, ax):
-    """The sense in which particles turn, and how fast."""
-    omegas = sorted({omega for omega in _carom.omegas(loaded) if omega})
-    if not omegas:
-        return
-    sense = "clockwise" if omegas[0] > 0 else "counter-clockwise"
-    sense = sense if omegas[0] * omegas[-1] > 0 else "both ways"
-    rate = f"ω = {omegas[0]:.4g}" + (f" … {omegas[-1]:.4g}" if len(omegas) > 1 else "")
-    ax.annotate(
-        f"{rate}, {sense}", (1, 0), xycoords="axes fraction", xytext=(0, -22),
-        textcoords="offset points", fontsize="x-small", ha="right", va="top", color="0.35",
-    )  # fmt: skip
-
-
-def _starts(rows, ax):
-    ax.quiver(
-        *rows.T, color=COLOURS[0], angles="xy", pivot="tail", width=0.004, scale=28, zorder=4, alpha=0.8
-    )
-    ax.plot(rows[:, 0], rows[:, 1], "o", color=COLOURS[0], markersize=2.5, zorder=4)
-
-
-def _labels(ax, labels):
-    """Names at points; one that would cover another, or that would be among too many, is left out."""
-    labels = labels[:40]
-    texts = [_label(ax, at, text, colour) for text, at, colour in labels]
-    if not texts:
-        return
-    figure = ax.get_figure()
-    figure.draw_without_rendering()
-    renderer = figure.canvas.get_renderer()
-    kept = []
-    for text in texts:
-        box = text.get_window_extent(renderer).expanded(1.05, 1.1)
-        if any(box.overlaps(other) for other in kept):
-            text.remove()
-        else:
-            kept.append(box)
-
-
-def _label(ax, at, text, colour):
-    return ax.annotate(
-        _plain(text), at, color=colour, fontsize="x-small", ha="center", va="center", zorder=5,
-        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8},
-    )  # fmt: skip
-
-
-def _levels(system, loaded, ax):
-    low_x, high_x = ax.get_xlim()
-    low_y, high_y = ax.get_ylim()
-    if not ax.has_data():  # the open plane
-        low_x, high_x, low_y, high_y = -2.0, 2.0, -2.0, 2.0
-    xs, ys = numpy.linspace(low_x, high_x, 201), numpy.linspace(low_y, high_y, 201)
-    energies = _carom.potential(loaded, list(xs), list(ys))
-    if energies is None or not numpy.isfinite(energies).any():
-        return
-    finite = energies[numpy.isfinite(energies)]
-    levels = numpy.unique(numpy.quantile(finite, numpy.linspace(0.05, 0.95, 11)))
-    if len(levels) > 1:
-        ax.contour(xs, ys, energies, levels=levels, colors="0.7", linewidths=0.6, zorder=0)
-        ax.set(xlim=(low_x, high_x), ylim=(low_y, high_y))
-
-
-def orbit(run, ax=None, most_hits=2000, colour=None, names=False, by="particle"):
-    """The table with the orbit of each particle: arcs are arcs. Coloured by "particle" or by
-    "time"; `colour`: one for all."""
+def orbit(run, ax=None, most_hits=2000, names=False, by="particle", **style):
+    """The table with the orbit of each particle, from a dot to a ring: arcs are arcs, and an arrow
+    shows the direction. Coloured by "particle" or by "time"; style: that of the lines, as color."""
     hits = run.hits[: most_hits * len(run.starts)]
     cells = {(0, 0), *zip(hits["cell_first"].tolist(), hits["cell_second"].tolist())}
     cells = cells if len(cells) <= 400 else [(0, 0)]
     made = ax is None
+    style = _style_of(style, linewidth=0.7, alpha=0.85)
+    colour = style.pop("color", None)
     ax = table(run.system, ax=_new_axes(ax), names=names, cells=cells, levels=False, directions=False, starts=0)
     particles = sorted(set(run.starts["particle"].tolist()))
     drawn = False
@@ -171,15 +53,17 @@ def orbit(run, ax=None, most_hits=2000, colour=None, names=False, by="particle")
         if len(times) > most_hits:
             path = path[path["t"] <= times[most_hits]]
             drawn = True
-        kept = colour or COLOURS[number % len(COLOURS)]
+        kept = colour or _colour_of(number, len(particles))
         if by == "time":
-            lines.append((path, ax))
+            lines.append(path)
             kept = "black"
         else:
-            ax.plot(path["x"], path["y"], color=kept, linewidth=0.7, zorder=2)
-        ax.plot(path["x"][:1], path["y"][:1], "o", color=kept, markersize=3.5, zorder=4)
+            ax.plot(path["x"], path["y"], color=kept, zorder=2, **style)
+        ax.plot(path["x"][:1], path["y"][:1], "o", color=kept, markersize=4, zorder=5)
+        ax.plot(path["x"][-1:], path["y"][-1:], "o", color=kept, markersize=5, zorder=5, markerfacecolor="white")
+        _direction(ax, path, kept)
     for radius, start in zip(_carom.disc_radii(run._outcome.system), run.starts):
-        shade = colour or COLOURS[start["particle"] % len(COLOURS)]
+        shade = colour or _colour_of(start["particle"], len(particles))
         disc = _pyplot().Circle((start["x"], start["y"]), radius, color=shade, alpha=0.3, linewidth=0)
         ax.add_patch(disc)
     if by == "time":
@@ -194,18 +78,30 @@ def orbit(run, ax=None, most_hits=2000, colour=None, names=False, by="particle")
             "straight between hits: no samples", (0, 1), xycoords="axes fraction", xytext=(3, -3),
             textcoords="offset points", fontsize="x-small", ha="left", va="top", color="0.4",
         )  # fmt: skip
-    _levels(run.system, run.system._loaded("table"), ax)
+    _levels(run.system._loaded("table"), ax)
     if made:
         _fit(ax)
     return ax
+
+
+def _direction(ax, path, colour):
+    """An arrow in the middle of the first flight that is long enough to be seen."""
+    points = numpy.stack([path["x"], path["y"]], axis=1)[:200]
+    lengths = numpy.hypot(*numpy.diff(points, axis=0).T)
+    if len(lengths) and lengths.sum() > 0:
+        _arrow(ax, points[: int(numpy.argmax(numpy.cumsum(lengths) >= min(lengths.sum(), _size(ax) / 8))) + 2], colour, 0.6, 9)
+
+
+def _size(ax):
+    return max(float(numpy.diff(ax.get_xlim())[0]), float(numpy.diff(ax.get_ylim())[0]))
 
 
 def _by_time(lines, ax):
     """Paths in colours of their times, with the scale beside them."""
     from matplotlib.collections import LineCollection
 
-    last = max(float(path["t"][-1]) for path, _ in lines)
-    for path, _ in lines:
+    last = max(float(path["t"][-1]) for path in lines)
+    for path in lines:
         points = numpy.stack([path["x"], path["y"]], axis=1)
         pieces = LineCollection(
             list(numpy.stack([points[:-1], points[1:]], axis=1)), cmap="viridis", linewidths=0.8, zorder=2
@@ -224,9 +120,7 @@ def energy(run, ax=None):
     if not len(rows):
         raise ValueError("no energies: they need forces or hard discs, and run.sample")
     if ax is None:
-        _, (ax, below) = _pyplot().subplots(
-            2, 1, figsize=(5.0, 4.2), sharex=True, height_ratios=(2, 1), layout="constrained"
-        )
+        _, (ax, below) = _subplots(2, 1, figsize=(5.0, 4.2), sharex=True, height_ratios=(2, 1))
         below.plot(rows["t"], rows["total"] - rows["total"][0], color=_WALL, linewidth=0.8)
         below.set(xlabel="t", ylabel="change of total")
     else:
@@ -236,20 +130,19 @@ def energy(run, ax=None):
             ax.plot(rows["t"], rows[name], color=shade, linewidth=1, label=name)
     ax.set_ylabel("energy")
     ax.margins(y=0.1)
-    ax.legend(fontsize="small", frameon=False, ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0))
-    ax.set_title(_title_of(run.system), fontsize="small", pad=22)
+    _legend(ax, fontsize="small", ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0))
+    ax.set_title(_title_of(run.system), pad=22)
     return ax
 
 
-def survival(result, ax=None, scale="log"):
+def survival(result, ax=None, scale="log", **style):
     """p(t) with its 95 % interval, and the decay that was fitted, in its window; scale of time: "log"
-    (for tails) or "linear" (for rates)."""
+    (for tails) or "linear" (for rates); style: that of the line, as color and label."""
     ax = _new_axes(ax)
     points = result.survival
     seen = points[(points["p"] > 0) & ((points["t"] > 0) | (scale == "linear"))]
     low = numpy.maximum(seen["low"], seen["p"].min() * 1e-3 if len(seen) else 1e-300)
-    ax.fill_between(seen["t"], low, seen["high"], color=COLOURS[0], alpha=0.25, linewidth=0)
-    ax.plot(seen["t"], seen["p"], "o-", color=COLOURS[0], markersize=3, linewidth=1)
+    _with_band(ax, seen["t"], seen["p"], low, seen["high"], style)
     _decay(ax, result.fit)
     ax.set_yscale("log")
     ax.set_xscale(scale)
@@ -257,6 +150,14 @@ def survival(result, ax=None, scale="log"):
     ax.set_ylabel("p(t)")
     _title(ax, result.system)
     return ax
+
+
+def _with_band(ax, t, values, low, high, style):
+    style = _style_of(style, color=COLOURS[0], linewidth=1, markersize=3)
+    ax.fill_between(t, low, high, color=style["color"], alpha=0.25, linewidth=0)
+    ax.plot(t, values, "o-", **style)
+    if "label" in style:
+        _legend(ax)
 
 
 def _decay(ax, fit):
@@ -269,24 +170,23 @@ def _decay(ax, fit):
     p = fit.amplitude * law + (fit.plateau if "plateau" in fit.model else 0.0)
     name, value = ("κ", fit.rate) if exponential else ("exponent", fit.exponent)
     kind = f"local slope, {fit.model}" if fit.local_slope else fit.model
-    label = f"{kind}: {name} = {value:.4g} ± {fit.stderr:.1g}"
+    label = f"{kind}: {name} = {_with_error(value, fit.stderr)}"
     if not fit.decided:
         label += "\n(undecided)"
     ax.plot(t, p, color=COLOURS[1], linewidth=1.5, zorder=3, label=label)
-    ax.legend(fontsize="x-small", frameon=False)
+    _legend(ax, fontsize="x-small")
 
 
-def rate(result, ax=None, scale=None):
+def rate(result, ax=None, scale=None, **style):
     """The escape rate −dp/dt with its 95 % interval; scale of time: "log" or "linear", if not given
-    what its range asks for."""
+    what its range asks for; style: that of the line, as color and label."""
     ax = _new_axes(ax)
     seen = result.rate[result.rate["value"] > 0]
     seen = seen[seen["t"] > 0]
     if scale is None:
         scale = "log" if len(seen) and seen["t"].max() > 30 * seen["t"].min() else "linear"
     low = numpy.maximum(seen["low"], seen["value"].min() * 1e-3 if len(seen) else 1e-300)
-    ax.fill_between(seen["t"], low, seen["high"], color=COLOURS[0], alpha=0.25, linewidth=0)
-    ax.plot(seen["t"], seen["value"], "o-", color=COLOURS[0], markersize=3, linewidth=1)
+    _with_band(ax, seen["t"], seen["value"], low, seen["high"], style)
     ax.set(xscale=scale, yscale="log", xlabel="t", ylabel="−dp/dt")
     _title(ax, result.system)
     return ax
@@ -328,7 +228,7 @@ def basins(result, ax=None, colour=None, x=None, y=None, size=None):
         for number, name in enumerate(["none", *result.system.holes], -1):
             if (rows["hole"] == number).any():
                 ax.scatter([], [], color=shades[number + 1], s=20, label=_plain(name))
-        ax.legend(fontsize="small", frameon=False, loc="center left", bbox_to_anchor=(1.0, 0.5))
+        _legend(ax, fontsize="small", loc="center left", bbox_to_anchor=(1.0, 0.5))
     else:
         rows = rows[numpy.isfinite(rows[colour])]
         values = rows[colour]
@@ -341,7 +241,7 @@ def basins(result, ax=None, colour=None, x=None, y=None, size=None):
         ax.figure.colorbar(drawn, ax=ax, label=label, shrink=0.9)
     _title(ax, result.system)
     if not in_plane:
-        ax.set(xlabel=x, ylabel=y)
+        ax.set(xlabel=_symbol(x), ylabel=_symbol(y))
         ax.margins(0.0)
     elif made:
         _fit(ax)
@@ -382,14 +282,15 @@ def _cover(ax, x, y, values, norm, cmap, size):
     )
 
 
-def escape(result, ax=None):
-    """Survival twice: against log t (power laws are straight) and against t (exponentials are)."""
+def escape(result, ax=None, **style):
+    """Survival twice: against log t (power laws are straight) and against t (exponentials are); with `ax`
+    against log t."""
     if ax is not None:
-        return survival(result, ax=ax)
-    figure, axes = _pyplot().subplots(1, 2, figsize=(8.0, 3.6), layout="constrained")
+        return survival(result, ax=ax, **style)
+    figure, axes = _subplots(1, 2, figsize=(8.0, 3.6))
     for one, scale in zip(axes, ("log", "linear")):
-        survival(result, one, scale).set_title("")
-    figure.suptitle(_title_of(result.system, 90), fontsize="small")
+        survival(result, one, scale, **style).set_title("")
+    _title_above(figure, result.system)
     return axes
 
 
@@ -403,7 +304,7 @@ def section(result, ax=None, x=None, y=None):
         walls = result.system._table()["walls"]
         starts = numpy.concatenate([[0.0], numpy.cumsum([wall["length"] for wall in walls])])
         across = points["s"] + starts[points["wall"]] if len(points) else points["s"]
-        up, label_x, label_y = points["v_parallel"], "s", "v∥"
+        up, label_x, label_y = points["v_parallel"], "s", "v_parallel"
         if 1 < len(walls) <= 12:
             for edge in starts[1:-1]:
                 ax.axvline(edge, color="0.8", linewidth=0.6, zorder=0)
@@ -414,14 +315,16 @@ def section(result, ax=None, x=None, y=None):
         ax.set_xlim(starts[met[0]], starts[met[-1] + 1])
     else:
         along = points["s"].any() or points["v_parallel"].any()
+        if x is None and y is None and along:  # on a line x = c or y = c the place and the velocity along it
+            axis = re.search(r'^on = "([xy])=', result.system.to_toml(), re.MULTILINE)
+            x, y = {"x": ("y", "vy"), "y": ("x", "vx")}.get(axis and axis[1], (None, None))
         label_x, label_y = x or ("s" if along else "x"), y or ("v_parallel" if along else "y")
         across, up = points[label_x], points[label_y]
     orbits = points["orbit"].astype(int)
     colours = numpy.array(COLOURS)[orbits % len(COLOURS)]
     size = float(numpy.clip(2e4 / max(1, len(points)), 0.05, 6.0))
     ax.scatter(across, up, s=size, c=colours, linewidths=0, rasterized=len(points) > 20000)
-    ax.set_xlabel(label_x)
-    ax.set_ylabel(label_y)
+    ax.set(xlabel=_symbol(label_x), ylabel=_symbol(label_y))
     if not (1 < len(result.system.walls) <= 12 and at_walls):
         _title(ax, result.system)
     return ax

@@ -1,56 +1,58 @@
 """Pictures of transport: mean square displacements, correlations of the velocity, free paths, returns."""
 
-from .axes import COLOURS, new_axes, pyplot, title, title_of
+from .axes import COLOURS, legend, new_axes, style_of, subplots, title, title_above, with_error
 
 
-def diffusion(result, ax=None):
-    """The mean square displacement with its errors, and 4Dt where there is a D without a doubt."""
+def diffusion(result, ax=None, **style):
+    """The mean square displacement with its errors, and 4Dt where there is a D without a doubt; style: that
+    of the points, as color and label."""
     ax = new_axes(ax)
     points = result.msd
     seen = points[(points["t"] > 0) & (points["value"] > 0)]
     ax.errorbar(
-        seen["t"], seen["value"], yerr=seen["stderr"], fmt="o", markersize=3, linewidth=1,
-        color=COLOURS[0], label="MSD",
+        seen["t"], seen["value"], yerr=seen["stderr"], fmt="o",
+        **style_of(style, markersize=3, linewidth=1, color=COLOURS[0], label="MSD"),
     )
     if result.D is not None and "note" not in result.json:
         ax.plot(
             seen["t"], 4 * result.D.value * seen["t"], color=COLOURS[1], linewidth=1,
-            label=f"4 D t, D = {result.D.value:.4g} ± {result.D.stderr:.1g}",
+            label=f"4 D t, D = {with_error(result.D.value, result.D.stderr)}",
         )
     if result.exponent is not None:
-        ax.plot([], [], " ", label=f"exponent {result.exponent.value:.4g} ± {result.exponent.stderr:.1g}")
+        ax.plot([], [], " ", label=f"exponent {with_error(result.exponent.value, result.exponent.stderr)}")
     ax.set_xscale("log")
     ax.set_yscale("log")
     ax.set_xlabel("t")
     ax.set_ylabel("⟨|x(t) − x(0)|²⟩")
-    ax.legend(fontsize="small", frameon=False)
+    legend(ax, fontsize="small")
     title(ax, result.system)
     return ax
 
 
-def correlation(result, ax=None):
+def correlation(result, ax=None, **style):
     """The velocity autocorrelation against t, and D(t) of Green and Kubo beside it."""
     if ax is not None:
-        return _against_time(ax, result, result.correlation, "⟨v(t)·v(0)⟩")
-    figure, axes = pyplot().subplots(1, 2, figsize=(8.0, 3.6), layout="constrained")
-    correlation(result, ax=axes[0]).set_title("")
-    _against_time(axes[1], result, result.green_kubo, "½ ∫ ⟨v(t′)·v(0)⟩ dt′ from 0 to t").set_title("")
+        return _against_time(ax, result, result.correlation, "⟨v(t)·v(0)⟩", style)
+    figure, axes = subplots(1, 2, figsize=(8.0, 3.6))
+    correlation(result, ax=axes[0], **style).set_title("")
+    _against_time(axes[1], result, result.green_kubo, "½ ∫ ⟨v(t′)·v(0)⟩ dt′ from 0 to t", style).set_title("")
     if result.D is not None and "note" not in result.json:
         D = result.D
         axes[1].axhspan(D.value - D.stderr, D.value + D.stderr, color=COLOURS[1], alpha=0.3, linewidth=0)
-        axes[1].axhline(D.value, color=COLOURS[1], linewidth=1, label=f"D of the MSD, {D.value:.4g} ± {D.stderr:.1g}")
-        axes[1].legend(fontsize="small", frameon=False)
-    figure.suptitle(title_of(result.system, 90), fontsize="small")
+        axes[1].axhline(D.value, color=COLOURS[1], linewidth=1, label=f"D of the MSD, {with_error(D.value, D.stderr)}")
+        legend(axes[1], fontsize="small")
+    title_above(figure, result.system)
     return axes
 
 
-def _against_time(ax, result, points, label):
+def _against_time(ax, result, points, label, style):
     """Points with errors against log t, and where they are zero."""
     seen = points[points["t"] > 0]
     ax.axhline(0.0, color="0.8", linewidth=0.6, zorder=0)
-    ax.errorbar(
-        seen["t"], seen["value"], yerr=seen["stderr"], fmt="o", markersize=3, linewidth=1, color=COLOURS[0]
-    )
+    style = style_of(style, markersize=3, linewidth=1, color=COLOURS[0])
+    ax.errorbar(seen["t"], seen["value"], yerr=seen["stderr"], fmt="o", **style)
+    if "label" in style:
+        legend(ax)
     ax.set_xscale("log")
     ax.set_xlabel("t")
     ax.set_ylabel(label)
@@ -85,18 +87,21 @@ def free_paths(result, ax=None):
             )
     ax.set_xlabel("l")
     ax.set_ylabel("share of flights of l or longer")
-    ax.legend(fontsize="small", frameon=False)
+    legend(ax, fontsize="small")
     title(ax, result.system)
     return ax
 
 
-def returns(result, ax=None):
+def returns(result, ax=None, **style):
     """The share of excursions from the wall that last t or longer."""
     ax = new_axes(ax)
     seen = result.return_times[(result.return_times["from"] > 0) & (result.return_times["longer"] > 0)]
     ax.errorbar(
-        seen["from"], seen["longer"], yerr=seen["longer_stderr"], fmt="o", markersize=3, linewidth=1, color=COLOURS[0]
+        seen["from"], seen["longer"], yerr=seen["longer_stderr"], fmt="o",
+        **style_of(style, markersize=3, linewidth=1, color=COLOURS[0]),
     )
+    if "label" in style:
+        legend(ax)
     ax.set(xscale="log", yscale="log", xlabel="t", ylabel=f"share of returns to {result.wall} after t or more")
     title(ax, result.system)
     return ax

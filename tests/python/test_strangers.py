@@ -27,7 +27,7 @@ def test_a_title_is_no_formula(title, ending, tmp_path):
     system = titled(title)
     file = tmp_path / f"a.{ending}"
     system.plot().figure.savefig(file)
-    carom.escape(system.hole("circle", 0, 0.3), trajectories=50, t_max=5).plot()[0].figure.savefig(file)
+    carom.escape(system.hole("circle", 0, 0.3), trajectories=50, t_max=5).plot().figure.savefig(file)
     if ending == "svg":
         import xml.dom.minidom
 

@@ -1,0 +1,238 @@
+"""The picture of a table: walls with their names, holes, what is inside, fields and potentials."""
+
+import numpy
+
+from . import _carom
+from .axes import COLOURS, new_axes, plain, title
+
+WALL = "#222222"
+_MATTER = "#e6e4df"  # obstacles
+_SPACE = "#fafaf7"  # where particles move
+_BESIDE = 7  # points between a wall and its name
+
+
+def table(
+    system, ax=None, names=True, cells=((0, 0),), levels=True, directions=True, field=True, starts=None
+):
+    """Walls with the direction of their arc length, holes (dashed, with their names), the sense of
+    the field, level lines of the potentials; of a lattice these cells. starts: this many
+    trajectories' starts as dots with their directions; None: those that the system lists."""
+    made = ax is None
+    ax = new_axes(ax)
+    loaded = system._loaded("table")
+    walls = _carom.walls(loaded)
+    _walls(loaded, walls, ax, list(cells))
+    if levels:
+        draw_levels(loaded, ax)
+    if starts is None:
+        starts = min(_carom.listed(loaded), 100)
+    if starts:
+        _starts(_carom.starts(loaded, starts), ax)
+    ax.set(aspect="equal", xlabel="x", ylabel="y")
+    title(ax, system)
+    make_room(ax, 0.09 if names else 0.04)
+    if made:
+        fit(ax)
+    if directions and len(walls) <= 12:
+        for _, pieces, _ in walls:
+            if pieces:
+                arrow(ax, max(pieces, key=len), WALL)
+    if field:
+        _field(loaded, ax)
+    if names:
+        labels = [(h, *_middle(piece), COLOURS[1]) for _, _, hs in walls for h, piece in hs]
+        if len(walls) <= 12:
+            for name, pieces, _ in walls:
+                if pieces:
+                    labels.append((name, *_middle(max(pieces, key=len)), "0.4"))
+        _labels(ax, labels)
+    return ax
+
+
+def _walls(loaded, walls, ax, cells):
+    """Walls and holes over what is inside. Of a lattice each cell, with what reaches into it from its neighbours."""
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path
+
+    edges = _carom.cell(loaded)
+    loops = _loops([piece for _, pieces, holes in walls for piece in (*pieces, *(p for _, p in holes))])
+    around = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)] if edges else [(0, 0)]
+    near = {(a + i, b + j) for a, b in cells for i, j in around}
+    shown = None
+    if edges:
+        (outline,) = _loops(edges)
+        outlines = [outline + shift for shift in _carom.translations(loaded, cells)]
+        shown = Path.make_compound_path(*(Path(line, closed=True) for line in outlines))
+        shown = PathPatch(shown, facecolor=_SPACE, edgecolor="0.7", linewidth=0.6, linestyle=":", zorder=0.1)
+        ax.add_patch(shown)
+        ax.update_datalim(numpy.concatenate(outlines))
+    reach = numpy.concatenate(outlines) if shown else None
+    for shift in _carom.translations(loaded, sorted(near)):
+        drawn = []
+        for loop in loops:
+            if shown and not _touch(loop + shift, reach):
+                continue
+            inside = _area(loop) > 0  # walls run with the table on their left
+            patch = PathPatch(Path(loop + shift, closed=True), linewidth=0, zorder=0.2)
+            patch.set_facecolor(_SPACE if inside else _MATTER)
+            drawn.append(ax.add_patch(patch))
+        for _, pieces, holes in walls:
+            for piece in pieces:
+                if shown and not _touch(piece + shift, reach):
+                    continue
+                drawn += ax.plot(*(piece + shift).T, color=WALL, linewidth=1.2, zorder=3, solid_capstyle="round")
+            for _, piece in holes:
+                hole = {"color": COLOURS[1], "linewidth": 1.4, "linestyle": (0, (2, 1.5))}
+                drawn += ax.plot(*(piece + shift).T, zorder=3, **hole)
+        if shown:
+            for one in drawn:
+                one.set_clip_path(shown)
+    if shown:
+        ax.relim()
+        ax.dataLim.set_points(numpy.stack([f(numpy.concatenate(outlines), axis=0) for f in (numpy.min, numpy.max)]))
+        ax.autoscale_view()
+
+
+def _touch(points, others):
+    """Do the upright rectangles around points and others overlap?"""
+    return (points.min(axis=0) <= others.max(axis=0)).all() and (points.max(axis=0) >= others.min(axis=0)).all()
+
+
+def _loops(pieces):
+    """Closed lines, put together of pieces that begin where others end; what does not close is left out."""
+    left = list(pieces)
+    loops = []
+    while left:
+        line = [left.pop(0)]
+        while left and not _same(line[0][0], line[-1][-1]):
+            gaps = [numpy.hypot(*(piece[0] - line[-1][-1])) for piece in left]
+            line.append(left.pop(int(numpy.argmin(gaps))))
+        points = numpy.concatenate(line)
+        if _same(points[0], points[-1]):
+            loops.append(points)
+    return loops
+
+
+def _same(a, b):
+    return numpy.allclose(a, b, rtol=1e-9, atol=1e-9)
+
+
+def _area(loop):
+    x, y = loop.T
+    return 0.5 * float(numpy.dot(x, numpy.roll(y, -1)) - numpy.dot(numpy.roll(x, -1), y))
+
+
+def _at(points, share):
+    """The point of a line after this share of its length."""
+    steps = numpy.hypot(*numpy.diff(points, axis=0).T)
+    along = numpy.concatenate([[0.0], numpy.cumsum(steps)])
+    where = share * along[-1]
+    return numpy.array([numpy.interp(where, along, points[:, i]) for i in (0, 1)])
+
+
+def _middle(piece):
+    """The middle of a piece of wall, and the direction away from the table there."""
+    along = _at(piece, 0.51) - _at(piece, 0.49)
+    return _at(piece, 0.5), numpy.array([along[1], -along[0]]) / numpy.hypot(*along)
+
+
+def make_room(ax, share):
+    """Room around what is drawn, equally wide on all sides."""
+    if not ax.has_data() or not numpy.isfinite(ax.dataLim.get_points()).all():
+        return
+    (left, low), (right, high) = ax.dataLim.get_points()
+    room = share * max(right - left, high - low)
+    ax.set(xlim=(left - room, right + room), ylim=(low - room, high + room))
+
+
+def fit(ax):
+    """A figure as high as its table."""
+    width, height = numpy.diff(ax.get_xlim())[0], numpy.diff(ax.get_ylim())[0]
+    lines = ax.get_title().count("\n")
+    ax.figure.set_size_inches(5.0, float(numpy.clip(0.9 + 0.15 * lines + 4.2 * height / width, 1.9, 6.5)))
+
+
+def arrow(ax, points, colour, share=0.75, size=11):
+    """The direction of a line, at this share of its length."""
+    tip, foot = _at(points, share + 0.01), _at(points, share - 0.01)
+    style = {"arrowstyle": "-|>", "color": colour, "linewidth": 0, "mutation_scale": size, "shrinkA": 0, "shrinkB": 0}
+    ax.annotate("", tip, foot, arrowprops=style, zorder=4)
+
+
+def _field(loaded, ax):
+    """The sense in which particles turn and how fast, with the circle of the first start if it has room."""
+    omegas = sorted({omega for omega in _carom.omegas(loaded) if omega})
+    if not omegas:
+        return
+    sense = "clockwise" if omegas[0] > 0 else "counter-clockwise"
+    sense = sense if omegas[0] * omegas[-1] > 0 else "both ways"
+    text = f"ω = {omegas[0]:.4g}" + (f" … {omegas[-1]:.4g}" if len(omegas) > 1 else "")
+    text += f", {sense}"
+    speed = float(numpy.hypot(*_carom.starts(loaded, 1)[0, 2:]))
+    radius = speed / abs(omegas[0])
+    low, high = ax.get_ylim()
+    if len(omegas) == 1 and numpy.isfinite(radius) and 2 * radius < 0.5 * (high - low):
+        right = ax.get_xlim()[1]
+        circle = {"fill": False, "edgecolor": "0.45", "linewidth": 0.8, "clip_on": False}
+        from matplotlib.patches import Circle
+
+        drawn = Circle((right + 1.15 * radius, low + 1.15 * radius), radius, zorder=3, **circle)
+        ax.add_patch(drawn)
+    elif len(omegas) == 1:
+        text += f", Larmor radius {radius:.3g}"
+    ax.annotate(
+        text, (1, 0), xycoords="axes fraction", xytext=(0, -36),
+        textcoords="offset points", fontsize="x-small", ha="right", va="top", color="0.35",
+    )  # fmt: skip
+
+
+def _starts(rows, ax):
+    ax.quiver(
+        *rows.T, color=COLOURS[0], angles="xy", pivot="tail", width=0.004, scale=28, zorder=4, alpha=0.8
+    )
+    ax.plot(rows[:, 0], rows[:, 1], "o", color=COLOURS[0], markersize=2.5, zorder=4)
+
+
+def _labels(ax, labels):
+    """Names beside their walls, outside; where that covers another name inside, and where that does too nothing."""
+    labels = labels[:40]
+    if not labels:
+        return
+    figure = ax.get_figure()
+    figure.draw_without_rendering()
+    renderer = figure.canvas.get_renderer()
+    kept = []
+    for name, at, away, colour in labels:
+        for side in (1, -1):
+            text = _label(ax, name, at, side * away, colour)
+            box = text.get_window_extent(renderer).expanded(1.05, 1.1)
+            if not any(box.overlaps(other) for other in kept):
+                kept.append(box)
+                break
+            text.remove()
+
+
+def _label(ax, name, at, away, colour):
+    across = "center" if abs(away[0]) < 0.4 else "left" if away[0] > 0 else "right"
+    up = "center" if abs(away[1]) < 0.4 else "bottom" if away[1] > 0 else "top"
+    return ax.annotate(
+        plain(name), at, xytext=tuple(0.6 * _BESIDE * away), textcoords="offset points", color=colour,
+        fontsize="x-small", ha=across, va=up, zorder=5,
+    )  # fmt: skip
+
+
+def draw_levels(loaded, ax):
+    """Level lines of the potential energy."""
+    low_x, high_x = ax.get_xlim()
+    low_y, high_y = ax.get_ylim()
+    if not ax.has_data():  # the open plane
+        low_x, high_x, low_y, high_y = -2.0, 2.0, -2.0, 2.0
+    xs, ys = numpy.linspace(low_x, high_x, 201), numpy.linspace(low_y, high_y, 201)
+    energies = _carom.potential(loaded, list(xs), list(ys))
+    if energies is None or not numpy.isfinite(energies).any():
+        return
+    finite = energies[numpy.isfinite(energies)]
+    levels = numpy.unique(numpy.quantile(finite, numpy.linspace(0.05, 0.95, 11)))
+    if len(levels) > 1:
+        ax.contour(xs, ys, energies, levels=levels, colors="0.7", linewidths=0.6, zorder=0.5)
+        ax.set(xlim=(low_x, high_x), ylim=(low_y, high_y))
