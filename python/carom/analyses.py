@@ -3,7 +3,9 @@
 import numpy
 
 from . import _carom
-from .axes import COLOURS, colour_of, legend, new_axes, plain, scale_of, style_of, subplots, symbol, title, title_above, with_error
+from .axes import (
+    COLOURS, colour_of, legend, new_axes, plain, scale_of, style_of, subplots, symbol, title, title_above, with_error,
+)  # fmt: skip
 from .errors import InputError
 from .tables import table
 
@@ -42,7 +44,8 @@ def sweep(result, ax=None, y=None, **style):
 
 def _line(ax, table, key, y, style):
     """Values with errors, in runs without a gap and of one law."""
-    laws = table["model"] if y in ("rate", "exponent") and "model" in table.dtype.names else numpy.full(len(table), "")
+    of_a_law = y in ("rate", "exponent") and "model" in table.dtype.names
+    laws = table["model"] if of_a_law else numpy.full(len(table), "")
     order = numpy.argsort(table[key])
     known = numpy.isfinite(table[y])
     names = [law for law in dict.fromkeys(laws[order]) if known[laws == law].any()]
@@ -63,7 +66,8 @@ def _line(ax, table, key, y, style):
         )
     if len(names) > 1 or "label" in style:
         handles, labels = ax.get_legend_handles_labels()
-        legend(ax, *zip(*dict(zip(labels, handles)).items(), strict=True)[::-1])
+        once = dict(zip(labels, handles))
+        legend(ax, list(once.values()), list(once))
     if _geometric(table[key][order]):
         ax.set_xscale("log")
     if y == "survival" and scale_of(table[y][known]) == "log":
@@ -157,9 +161,11 @@ def orbits(result, ax=None, most=12):
         _orbits(result, place, [number])
         place.set(xticks=[], yticks=[], xlabel="", ylabel="")
         place.spines[:].set_visible(False)
-        multiplier = one["multipliers"][0]
-        size = "" if one["family"] else f", Λ = {multiplier[0]:.4g}" + (f" ± {multiplier[1]:.3g} i" if multiplier[1] else "")
-        place.set_title(f"{words[number]}\nT = {one['period']:.5g}{size}", fontsize="small")
+        real, imaginary = one["multipliers"][0]
+        text = f"{words[number]}\nT = {one['period']:.5g}"
+        if not one["family"]:
+            text += f", Λ = {real:.4g}" + (f" ± {imaginary:.3g} i" if imaginary else "")
+        place.set_title(text, fontsize="small")
     title_above(figure, result.system)
     return axes.flatten()[: len(shown)]
 

@@ -81,7 +81,8 @@ def _stage(run, where):
     """The table, with room for all places of the particles: of a lattice the cells that they visit."""
     cells = {(0, 0), *zip(run.samples["cell_first"].tolist(), run.samples["cell_second"].tolist())}
     cells |= set(zip(run.hits["cell_first"][:2000].tolist(), run.hits["cell_second"][:2000].tolist()))
-    ax = table(run.system, names=False, cells=cells if len(cells) <= 400 else [(0, 0)], levels=False, directions=False, starts=0)
+    cells = cells if len(cells) <= 400 else [(0, 0)]
+    ax = table(run.system, names=False, cells=cells, levels=False, directions=False, starts=0)
     ax.update_datalim(where[numpy.isfinite(where).all(axis=2)])
     make_room(ax, 0.04)
     draw_levels(run.system._loaded("table"), ax)

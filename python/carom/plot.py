@@ -88,8 +88,10 @@ def _direction(ax, path, colour):
     """An arrow in the middle of the first flight that is long enough to be seen."""
     points = numpy.stack([path["x"], path["y"]], axis=1)[:200]
     lengths = numpy.hypot(*numpy.diff(points, axis=0).T)
-    if len(lengths) and lengths.sum() > 0:
-        _arrow(ax, points[: int(numpy.argmax(numpy.cumsum(lengths) >= min(lengths.sum(), _size(ax) / 8))) + 2], colour, 0.6, 9)
+    along = numpy.cumsum(lengths)
+    if len(along) and along[-1] > 0:
+        last = int(numpy.argmax(along >= min(along[-1], _size(ax) / 8)))
+        _arrow(ax, points[: last + 2], colour, 0.6, 9)
 
 
 def _size(ax):

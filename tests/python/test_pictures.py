@@ -7,6 +7,7 @@ import numpy
 import pytest
 
 import carom
+from carom.axes import with_error
 
 
 @pytest.fixture(autouse=True)
@@ -224,3 +225,57 @@ def test_starts_off_walls_have_no_place_on_them():
     with pytest.raises(carom.InputError, match="20 of 20 starts lie on no wall"):
         carom.plot.basins(inside, x="s", y="v_parallel")
     assert carom.plot.basins(inside).collections
+
+
+def test_names_stand_beside_their_walls():
+    ax = carom.system("stadium").plot()
+    ax.figure.canvas.draw()
+    renderer = ax.figure.canvas.get_renderer()
+    boxes = [one.get_window_extent(renderer) for one in ax.texts if one.get_text()]
+    walls = [ax.transData.transform(line.get_xydata()) for line in ax.get_lines()]
+    assert len(boxes) >= 5
+    for box in boxes:
+        for wall in walls:
+            along = numpy.concatenate([numpy.linspace(a, b, 50) for a, b in zip(wall[:-1], wall[1:])])
+            assert not box.count_contains(along)
+
+
+@pytest.mark.parametrize(
+    "value, error, text",
+    [
+        (0.342849, 0.00054, "0.34285(54)"), (0.018864, 9.96e-5, "0.01886(10)"), (12.3, 0, "12.3"),
+        (1234.5, 12.0, "1234(12)"), (-0.5, 0.095, "-0.500(95)"), (3.0, float("nan"), "3"),
+    ],
+)  # fmt: skip
+def test_a_value_and_its_error_are_rounded_together(value, error, text):
+    assert with_error(value, error) == text
+
+
+def test_no_line_joins_different_laws():
+    result = carom.escape("magnetic-square", trajectories=20_000, sweep={"field.B": "lin:0.5:2.5:9"})
+    laws = result.table["model"]
+    known = numpy.isfinite(result.table["exponent"])
+    assert len(set(laws[known])) > 1  # of what is tested here
+    ax = carom.plot.sweep(result, y="exponent")
+    joined = [container.lines[0].get_xdata() for container in ax.containers]
+    assert sorted(numpy.concatenate(joined)) == sorted(result.table["field.B"][known])
+    for part in joined:
+        places = numpy.searchsorted(result.table["field.B"], part)
+        assert len(set(laws[places])) == 1 and (numpy.diff(places) == 1).all()
+    assert result.plot().get_ylabel() == "survival"  # what all values have
+
+
+def test_results_share_a_picture():
+    figure, ax = pyplot.subplots()
+    for width, colour in ((0.1, "tab:red"), (0.3, "tab:green")):
+        square = carom.rectangle(1, 1).hole("bottom", center=0.5, width=width)
+        result = carom.escape(square, trajectories=500)
+        result.plot(ax=ax, color=colour, label=f"hole of {width}", lw=2)
+    assert {line.get_color() for line in ax.get_lines() if line.get_linewidth() == 2} == {"tab:red", "tab:green"}
+    assert {"hole of 0.1", "hole of 0.3"} <= {text.get_text() for text in ax.get_legend().get_texts()}
+
+
+def test_each_orbit_has_a_panel_with_its_word():
+    panels = carom.orbits("three-disc", hits=4).plot()
+    assert [ax.get_title().split("\n")[0] for ax in panels] == ["12", "123", "1213"]
+    assert panels.figure is panels[0].figure
