@@ -73,7 +73,8 @@ LAUNCHER
   chmod +x "$folder/carom"
   cp "$source/LICENSE" "$source/README.md" "$source/CHANGELOG.md" "$folder"
   cp -r "$source/examples" "$folder/examples"
-  cp "$build/manual/carom.1" "$folder"
+  mkdir "$folder/man"
+  cp "$build"/man/*.1 "$folder/man"
   [[ ! -d $source/build/docs/html ]] || cp -r "$source/build/docs/html" "$folder/docs"
   licences "$folder/lib" libhdf5_serial.a libgsl.a libsundials_cvode.a  # archives.cmake
   tar -C "$work" --owner=0 --group=0 --sort=name -cf - "$name" | gzip -9n >"$target/$name.tar.gz"

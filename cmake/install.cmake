@@ -28,14 +28,19 @@ install(FILES ${PROJECT_BINARY_DIR}/carom-config.cmake
               ${PROJECT_BINARY_DIR}/carom-config-version.cmake
   DESTINATION ${carom_package_dir} COMPONENT library)
 
-# Man page and completions.
+# Man pages and completions. Debian's are compressed.
 set(carom_zsh_dir ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+set(carom_man_pattern "*.1")
 if(CAROM_DEBIAN)
   set(carom_zsh_dir ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+  set(carom_man_pattern "*.1.gz")
 endif()
-install(FILES ${carom_man_page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
-install(FILES ${manual_folder}/carom DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
-install(FILES ${manual_folder}/_carom DESTINATION ${carom_zsh_dir} COMPONENT program)
+if(TARGET man_pages)
+  install(DIRECTORY ${man_pages}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program
+    FILES_MATCHING PATTERN ${carom_man_pattern})
+endif()
+install(FILES cmake/completion/carom DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+install(FILES cmake/completion/_carom DESTINATION ${carom_zsh_dir} COMPONENT program)
 
 # Documents; the gallery is a part of the guide.
 install(FILES LICENSE CITATION.cff CHANGELOG.md README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)

@@ -22,7 +22,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-carom, python3-matplotlib, li
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Billiards with and without a magnetic field, potentials and interactions.
 Every decision between walls is exact; ensembles repeat bit for bit.
 .
-The package has the program carom, its man page and documents, the scripts
+The package has the program carom, its man pages and documents, the scripts
 of the gallery (they need python3-carom) and examples in C++ (they need
 libcarom-dev).")
 

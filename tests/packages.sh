@@ -39,7 +39,7 @@ use_carom() {
   inside carom escape stadium </dev/null
   inside carom "${small[@]}" --json </dev/null | grep -o '"digest": *"[0-9a-f]*"' | cut -d '"' -f 4 >"$folder/carom/digest" ||
     die "no digest"
-  inside bash -c 'gunzip -c /usr/share/man/man1/carom.1.gz | grep -q "^.SH COMMANDS"' || die "no man page"
+  inside bash -c 'gunzip -c /usr/share/man/man1/carom-escape.1.gz | grep -q "^.SH EXAMPLES"' || die "no man page"
   inside bash -c '. /usr/share/bash-completion/completions/carom && complete -p carom' >/dev/null || die "no completion"
   inside cp -r /usr/share/doc/carom/examples /carom/examples
 }

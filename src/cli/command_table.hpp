@@ -1,5 +1,4 @@
-// The commands and their options as data: the man page and the completions of shells are made from
-// them. --help prints the same.
+// The commands and their options as data, for completions and for Python. --help prints the same.
 #pragma once
 
 #include <string>
@@ -11,13 +10,11 @@ struct OptionRow {
   std::vector<std::string> names;  ///< "-o", "--output"; of an argument: "SYSTEM"
   std::string value;               ///< what follows it: "N", "FILE.h5", "auto|steps"; "" : nothing
   std::string help;
-  bool operator==(const OptionRow&) const = default;
 };
 
 struct CommandRow {
-  std::string name;     ///< "" : the program without a command
-  std::string text;     ///< what it does, one sentence
-  std::string details;  ///< examples and more, as --help ends
+  std::string name;  ///< "" : the program without a command
+  std::string text;  ///< what it does, one sentence
   std::vector<OptionRow> options;
   std::vector<OptionRow> arguments;  ///< words without a dash
   bool many_arguments = false;       ///< the last argument may be repeated

@@ -20,6 +20,7 @@
 #include "carom_version.hpp"
 #include "cli/command_options.hpp"
 #include "cli/command_table.hpp"
+#include "cli/complete.hpp"
 #include "cli/option_faults.hpp"
 #include "cli/reports/aligned.hpp"
 
@@ -100,7 +101,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
 }
 
 CommandRow row_of(const CLI::App& app) {
-  CommandRow row{app.get_name(), app.get_description(), app.get_footer(), {}, {}, false};
+  CommandRow row{app.get_name(), app.get_description(), {}, {}, false};
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_group().empty()) continue;  // for tests
     const std::string value = option->get_type_size() > 0 ? option->get_type_name() : "";
@@ -158,6 +159,11 @@ void set_options(Options& options, const std::string& command,
 Parsed parse(int argc, char** argv) {
   Parsed parsed;
   Options& options = parsed.options;
+  if (argc == 3 && std::string(argv[1]) == "--complete") {
+    std::fputs(completions(argv[2]).c_str(), stdout);
+    parsed.exit = done;
+    return parsed;
+  }
   for (int i = 0; i < argc; ++i) options.line += (i ? " " : "") + quoted(i ? argv[i] : "carom");
 
   CLI::App app(introduction, "carom");

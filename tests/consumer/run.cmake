@@ -13,7 +13,10 @@ run(${scratch}/prefix/bin/carom --version)
 if(EXISTS ${scratch}/prefix/include/carom/maps)
   message(FATAL_ERROR "the maps are installed")
 endif()
-foreach(file share/man/man1/carom.1 share/bash-completion/completions/carom share/zsh/site-functions/_carom
+if(EXISTS ${BUILD}/man)  # where help2man was
+  set(man_pages share/man/man1/carom.1 share/man/man1/carom-escape.1)
+endif()
+foreach(file ${man_pages} share/bash-completion/completions/carom share/zsh/site-functions/_carom
     share/doc/carom/LICENSE share/doc/carom/CITATION.cff share/doc/carom/docs/guide/commands.md
     share/doc/carom/docs/guide/gallery/mushroom.py)
   if(NOT EXISTS ${scratch}/prefix/${file})
