@@ -117,6 +117,7 @@ def python_reference(stage):
         "carom.commands": "Commands",
         "carom.system": "Systems",
         "carom.results": "Results",
+        "carom.stored": "What all results have",
         "carom.plot": "Pictures",
         "carom.errors": "Errors",
     }
@@ -127,7 +128,8 @@ def python_reference(stage):
         ":doc:`an introduction </guide/python>`.\n\n"
     )
     for module, name in parts.items():
-        text += title(name, "-") + f".. automodule:: {module}\n\n"
+        text += title(name, "-") + f".. automodule:: {module}\n"
+        text += "   :imported-members:\n\n" if module == "carom.plot" else "\n"
     stage.write("reference/python.rst", text)
 
 

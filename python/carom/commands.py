@@ -9,8 +9,8 @@ from typing import Any, Callable, Union
 
 import numpy
 
-from . import _carom, records, results, toml
-from .errors import InputError, path_of, text_of
+from . import _carom, records, results, stored, toml
+from .errors import InputError, text_of
 from .return_times import Returns
 from .sweep import Sweep, Swept
 from .system import System, load, system
@@ -320,50 +320,6 @@ def validate(
     return result
 
 
-_KINDS: dict[str, tuple[Callable[..., results.Result], Callable[[str], Any]]] = {
-    "escape": (results.Escape, _carom.open_ensemble),
-    "diffusion": (results.Diffusion, _carom.open_ensemble),
-    "lyapunov": (results.Lyapunov, _carom.open_ensemble),
-    "returns": (Returns, _carom.open_ensemble),
-    "run": (results.Run, _carom.open_run),
-    "section": (results.Section, _carom.open_section),
-    "certified": (results.Certified, _carom.open_certified),
-    "relax": (results.Equilibria, _carom.open_relax),
-    "compare": (results.Comparison, _carom.open_comparison),
-    "orbit": (results.Orbits, _carom.open_orbits),
-    "sweep": (Sweep, _carom.open_sweep),
-}
-
-
-def open(path) -> results.Result:  # noqa: A001: the name that users expect
+def open(path) -> stored.Result:  # noqa: A001: the name that users expect
     """The result that an archive holds: the same classes as of the functions that compute."""
-    path = path_of(path)
-    try:
-        return _read(path)
-    except InputError:
-        raise
-    except (ArithmeticError, AttributeError, LookupError, MemoryError, RuntimeError, TypeError, ValueError) as error:
-        raise InputError(
-            f"{path}: the archive is damaged ({type(error).__name__}: {error})", (path, 0, 0, ""),
-            "an archive as carom wrote it",
-        ) from error  # fmt: skip
-
-
-def _read(path):
-    made, outcome = opened(path)
-    of = outcome.system
-    toml_, name = of if isinstance(of, tuple) else (of.toml, of.name)
-    trajectory = getattr(outcome, "trajectory", None)
-    options = [] if trajectory is None else [("trajectory", str(trajectory))]
-    result = made(outcome, System(toml_, name, (), options))
-    result._archive = path
-    return result
-
-
-def opened(path):
-    """The class of the result that an archive holds, and what the compiled module reads of it."""
-    kind = _carom.kind_of_archive(path)
-    if kind not in _KINDS:
-        raise InputError(f"'{path}' holds a {kind}", (path, 0, 0, ""), " or ".join(_KINDS))
-    made, function = _KINDS[kind]
-    return made, function(path)
+    return stored.opened(path)

@@ -26,13 +26,18 @@ from .axes import title_above as _title_above
 from .axes import title_of as _title_of
 from .axes import with_error as _with_error
 from .errors import InputError, text_of
-from .system import System
 from .tables import WALL as _WALL
 from .tables import arrow as _arrow
 from .tables import draw_levels as _levels
 from .tables import fit as _fit
 from .tables import table
 from .transport import correlation, diffusion, free_paths, returns
+
+__all__ = (
+    "STYLE basins comparison correlation diffusion distances energy equilibria escape exponents free_paths lyapunov"
+    " orbit orbits pictures rate result returns section spectrum survival sweep table times"
+).split()
+
 
 def orbit(run, ax=None, most_hits=2000, names=False, by="particle", **style):
     """The table with the orbit of each particle, from a dot to a ring: arcs are arcs, and an arrow
@@ -350,37 +355,7 @@ def distances(result, ax=None):
 def pictures(result):
     """The pictures that there are of a result or a system, by name; the first is the one that
     `result.plot()` draws."""
-    from . import results
-    from .return_times import Returns
-    from .sweep import Sweep
-
-    if isinstance(result, results.Run):
-        return {"orbit": orbit} | ({"energy": energy} if len(result.energies) else {})
-    if isinstance(result, results.Escape):
-        more = {"basins": basins, "times": times} if result.per_trajectory is not None else {}
-        return {"survival": escape, "rate": rate} | more
-    if isinstance(result, results.Diffusion):
-        more = {"free_paths": free_paths} if "free_paths" in result.json else {}
-        return {"diffusion": diffusion, "correlation": correlation} | more
-    if isinstance(result, results.Lyapunov):
-        more = {"exponents": exponents, "times": times} if result.per_trajectory is not None else {}
-        whole = {"spectrum": spectrum} if "spectrum" in result.json else {}
-        return {"lyapunov": lyapunov} | whole | more
-    if isinstance(result, results.Table):
-        return {"table": _of_table}
-    if isinstance(result, System):
-        return {"table": table}
-    others = {
-        results.Section: section,
-        results.Validation: distances,
-        results.Equilibria: equilibria,
-        results.Comparison: comparison,
-        results.Orbits: orbits,
-        Returns: returns,
-        Sweep: sweep,
-    }
-    draw = others.get(type(result))
-    return {draw.__name__: draw} if draw else {}
+    return getattr(result, "_pictures", dict)()
 
 
 def result(result, ax=None, what=None, **keywords):
@@ -395,7 +370,3 @@ def result(result, ax=None, what=None, **keywords):
             f"there is no picture '{what}' of {result!r}", ("", 0, 0, "what"), " or ".join(there), nearest
         )
     return there[what](result, ax=ax, **keywords)
-
-
-def _of_table(measured, ax=None, **keywords):
-    return table(measured.system, ax=ax, **keywords)

@@ -4,12 +4,12 @@ import html
 import json
 import os
 import tempfile
-from typing import Any
+from typing import Any, Callable
 
 import numpy
 
 from . import _carom
-from .errors import printable
+from .errors import InputError, printable
 
 
 class Record:
@@ -106,6 +106,26 @@ def _kind_of(key, known):
     return None
 
 
+_READERS: dict[str, Callable[[str], Any]] = {
+    **dict.fromkeys(("escape", "diffusion", "lyapunov", "returns"), _carom.open_ensemble),
+    "run": _carom.open_run,
+    "section": _carom.open_section,
+    "certified": _carom.open_certified,
+    "relax": _carom.open_relax,
+    "compare": _carom.open_comparison,
+    "orbit": _carom.open_orbits,
+    "sweep": _carom.open_sweep,
+}
+
+
+def outcome_of(path):
+    """The kind of an archive, and what the compiled module reads of it."""
+    kind = _carom.kind_of_archive(path)
+    if kind not in _READERS:
+        raise InputError(f"'{path}' holds a {kind}", (path, 0, 0, ""), " or ".join(_READERS))
+    return kind, _READERS[kind](path)
+
+
 class Kept:
     """What a pickled report is made of: what it says, as text, and the archive that has its rows."""
 
@@ -127,13 +147,11 @@ class Kept:
         if self._archive is None:
             raise AttributeError(name)
         if self._outcome is None:
-            from .commands import opened
-
             self._folder = tempfile.TemporaryDirectory()  # a sweep's results are read from it later
             file = os.path.join(self._folder.name, "result.h5")
             with open(file, "wb") as stream:
                 stream.write(self._archive)
-            self._outcome = opened(file)[1]
+            self._outcome = outcome_of(file)[1]
         return getattr(self._outcome, name)
 
 
@@ -207,6 +225,10 @@ class Report:
 
     def _main(self):
         raise NotImplementedError
+
+    def _pictures(self):
+        """Functions of `carom.plot` that draw it, by name."""
+        return {}
 
     def _summary(self):
         raise NotImplementedError

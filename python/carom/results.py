@@ -2,42 +2,15 @@
 lengths, times and masses as its file means them."""
 
 import decimal
-import os
-import tempfile
 from typing import Any, Optional
 
 import numpy
 
-from . import _carom
+from . import _carom, plot
 from ._carom import counted
-from .errors import InputError, path_of
+from .errors import InputError
 from .records import Record, Report, table_of
-from .system import System
-
-
-class OfSystem(Report):
-    """What a command reports of a system."""
-
-    def __init__(self, outcome, system):
-        super().__init__(outcome)
-        self._system = system
-
-    @property
-    def system(self) -> System:
-        """The system that was computed."""
-        return self._system
-
-    def _of(self):
-        return f" of {self._system.name}"
-
-    def _made_of(self):
-        return (self._system,)
-
-    def plot(self, ax=None, **keywords):
-        """Draws what there is to see with a function of `carom.plot`; returns the axes."""
-        from . import plot
-
-        return plot.result(self, ax=ax, **keywords)
+from .stored import OfSystem, Result
 
 
 class Table(OfSystem):
@@ -62,6 +35,9 @@ class Table(OfSystem):
         rows = self._json["walls"]
         return table_of(rows) if rows else numpy.empty(0, self._COLUMNS["walls"])
 
+    def _pictures(self):
+        return {"table": lambda of, **keywords: plot.table(of.system, **keywords)}
+
     def _summary(self):
         return f"{self.shape}, {counted(len(self.walls), 'wall')}, {counted(len(self.holes), 'hole')}"
 
@@ -76,13 +52,14 @@ class Validation(Report):
     expected, sigma (difference in standard errors), source … in the units of each case.
     """
 
+    def _pictures(self):
+        return {"distances": plot.distances}
+
     def _summary(self):
         return f"{self.passed} passed, {self.failed} failed"
 
     def plot(self, ax=None):
         """Draws how far each case is from its expected value."""
-        from . import plot
-
         return plot.distances(self, ax=ax)
 
     def _main(self):
@@ -104,50 +81,6 @@ class Splitting(OfSystem):
         return self._json["survival" if self.levels == "time" else "survival_hits"]
 
 
-def check_archive(path):
-    """The name of an archive, as text. Other endings are refused, as by the program."""
-    path = path_of(path)
-    if os.path.splitext(path)[1] not in ("", ".h5", ".hdf5", ".part"):
-        raise InputError(
-            f"'{path}' does not end as an archive", (path, 0, 0, ""), ".h5 or .hdf5; plot() draws pictures"
-        )
-    return path
-
-
-class Result(OfSystem):
-    """A result that an archive can hold: it is saved and opened."""
-
-    def __init__(self, outcome, system):
-        super().__init__(outcome, system)
-        self._archive = None  # that it was read from: its name, or its bytes
-        self._folder = None  # that holds the archive as long as rows are read from it
-
-    def save(self, path, force: bool = False) -> None:
-        """Writes the archive that the program writes with -o; `force` replaces one."""
-        path = check_archive(path)
-        if self._archive is None:
-            self._outcome.save(path, force)
-            return
-        if os.path.exists(path) and not force:
-            raise InputError(f"{path}: the output file exists already", (path, 0, 0, ""))
-        archive = self._archive
-        if isinstance(archive, str):
-            with open(archive, "rb") as stream:
-                archive = stream.read()
-        try:
-            with open(path, "wb") as stream:
-                stream.write(archive)
-        except OSError as error:
-            raise InputError(f"cannot write '{path}': {error.strerror}", (path, 0, 0, "")) from None
-
-    def _stored(self):
-        with tempfile.TemporaryDirectory() as folder:
-            file = os.path.join(folder, "result.h5")
-            self.save(file)
-            with open(file, "rb") as stream:
-                return stream.read()
-
-
 _PER_TRAJECTORY = """One row a particle, None unless asked for.
 
         (trajectories × particles,): index; x, y (length) and vx, vy (length/time) of the start;
@@ -155,7 +88,7 @@ _PER_TRAJECTORY = """One row a particle, None unless asked for.
         (−1: none), s (length) and v_parallel (length/time) of a start on a wall, else NaN."""
 
 
-class Escape(Result):
+class Escape(Result, archive="escape"):
     """Survival and escape. trajectories, escaped, survived, collisions, digest … Arrays:
 
     survival       (number of times,): t (time), p, low, high (share, 95 % interval)
@@ -172,6 +105,10 @@ class Escape(Result):
         "holes": [("name", "U1"), ("escaped", "i8"), ("p", "f8"), ("low", "f8"), ("high", "f8")]
     }
 
+    def _pictures(self):
+        more = {"basins": plot.basins, "times": plot.times} if self.per_trajectory is not None else {}
+        return {"survival": plot.escape, "rate": plot.rate} | more
+
     def _summary(self):
         return f"{counted(self.trajectories, 'trajectory')}, {self.escaped} escaped, {self.survived} survived"
 
@@ -185,7 +122,7 @@ class Escape(Result):
     per_trajectory.__doc__ = _PER_TRAJECTORY
 
 
-class Diffusion(Result):
+class Diffusion(Result, archive="diffusion"):
     """Mean square displacements.
 
     D (value, stderr: length²/time; None where it does not exist), exponent and local_exponent
@@ -200,6 +137,10 @@ class Diffusion(Result):
     with bins, (number of bins,): from, to (length), count, density (1/length), longer (share) …
     """
 
+    def _pictures(self):
+        more = {"free_paths": plot.free_paths} if "free_paths" in self._json else {}
+        return {"diffusion": plot.diffusion, "correlation": plot.correlation} | more
+
     def _summary(self):
         return f"{counted(self.trajectories, 'trajectory')}, D = {self.D!r}"
 
@@ -207,7 +148,7 @@ class Diffusion(Result):
         return self.msd
 
 
-class Lyapunov(Result):
+class Lyapunov(Result, archive="lyapunov"):
     """Lyapunov exponents and chaotic orbits.
 
     ``lambda_`` (value, stderr: 1/time; the largest first) and per_collision (value, stderr: a hit) are
@@ -242,6 +183,11 @@ class Lyapunov(Result):
         growth (regular where `regularity.regular` is not 0), 1 chaotic, 2 undecided.""",
     )
 
+    def _pictures(self):
+        more = {"exponents": plot.exponents, "times": plot.times} if self.per_trajectory is not None else {}
+        whole = {"spectrum": plot.spectrum} if "spectrum" in self._json else {}
+        return {"lyapunov": plot.lyapunov} | whole | more
+
     def _summary(self):
         largest = self.lambda_[0] if self.lambda_ is not None else None
         return f"{counted(self.orbits, 'orbit')}, lambda = {largest!r}"
@@ -250,7 +196,7 @@ class Lyapunov(Result):
         return self.distribution
 
 
-class Run(Result):
+class Run(Result, archive="run"):
     """One trajectory, of one or several particles.
 
     status, collisions, t (time), x, y (length), vx, vy (length/time) of the end,
@@ -331,6 +277,9 @@ class Run(Result):
         table = numpy.concatenate([table[table[:, 0] <= last[0]], [last]])
         return table[numpy.argsort(table[:, 0], kind="stable")]
 
+    def _pictures(self):
+        return {"orbit": plot.orbit} | ({"energy": plot.energy} if len(self.energies) else {})
+
     def _summary(self):
         return f"{self.status}, {counted(self.collisions, 'collision')}"
 
@@ -338,7 +287,7 @@ class Run(Result):
         return self.hits
 
 
-class Comparison(Result):
+class Comparison(Result, archive="compare"):
     """Integrators compared on a system.
 
     t (time) of the comparison, growth (share) of small errors until then, size (length) and speed
@@ -360,6 +309,9 @@ class Comparison(Result):
         to (time, the steps that it rests on), reason ("": none), reversible and symplectic (1 or 0),
         areas and areas_error (share) … What is not known is NaN."""
         return table_of(self._json["measured"], unknown=("reversible", "symplectic"))
+
+    def _pictures(self):
+        return {"comparison": plot.comparison}
 
     def _summary(self):
         cheapest = self._json["cheapest"]
@@ -393,7 +345,7 @@ class Exact(decimal.Decimal):
         return Exact, (str(self), self.digits)
 
 
-class Certified(Result):
+class Certified(Result, archive="certified"):
     """A certified run: t (time), x, y (length), vx, vy (length/time) are `Exact`; status,
     collisions, digits, bits, lost_bits."""
 
@@ -423,7 +375,7 @@ class Certified(Result):
         raise NotImplementedError("a certified run has no picture; draw carom.run(…) in doubles")
 
 
-class Orbits(Result):
+class Orbits(Result, archive="orbit"):
     """Periodic orbits, each once but for its start, reversal and the table's symmetries.
 
     orbits (number of orbits,): records with hits, period (time), length (length), action (mass ·
@@ -441,6 +393,9 @@ class Orbits(Result):
         (length/time), from a hit to itself."""
         return self._outcome.paths()
 
+    def _pictures(self):
+        return {"orbits": plot.orbits}
+
     def _summary(self):
         return f"{counted(len(self.orbits), 'orbit')} of at most {counted(self.most_hits, 'hit')}"
 
@@ -449,7 +404,7 @@ class Orbits(Result):
         return [{k: v for k, v in o.items() if k not in left_out} for o in self._json["orbits"]]
 
 
-class Section(Result):
+class Section(Result, archive="section"):
     """Points of many orbits on a surface: orbits, collisions, digest …"""
 
     @property
@@ -463,6 +418,9 @@ class Section(Result):
         """
         return self._outcome.points()
 
+    def _pictures(self):
+        return {"section": plot.section}
+
     def _summary(self):
         return f"{counted(len(self.points), 'point')} of {counted(self.orbits, 'orbit')}"
 
@@ -470,13 +428,16 @@ class Section(Result):
         return self.points
 
 
-class Equilibria(Result):
+class Equilibria(Result, archive="relax"):
     """Where all forces vanish. starts, without (numbers of searches). A record each, by rising energy:
 
     equilibria: energy, energy_error (energy), kind ("minimum", "saddle", "maximum"), descending,
     neutral (numbers of directions), found (starts), position_error (length), positions (length, two
     numbers a particle), walls (names or None), frequencies, growths (1/time)
     """
+
+    def _pictures(self):
+        return {"equilibria": plot.equilibria}
 
     def _summary(self):
         return f"{len(self._json['equilibria'])} from {counted(self.starts, 'start')}"

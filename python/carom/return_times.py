@@ -1,10 +1,11 @@
 """Return times to a wall."""
 
+from . import plot
 from ._carom import counted
-from .results import Result
+from .stored import Result
 
 
-class Returns(Result):
+class Returns(Result, archive="returns"):
     """Return times to a wall.
 
     excursions; half (time): of the run, in which they begin; mean_time (value, stderr: time) and
@@ -14,6 +15,9 @@ class Returns(Result):
     return_times  (number of bins,): from, to (time), count, density (1/time), longer (share) …
     return_hits   (number of bins,): from, to, count, longer: by hits, the last one counted
     """
+
+    def _pictures(self):
+        return {"returns": plot.returns}
 
     def _summary(self):
         return f"{counted(self.excursions, 'excursion')} from {self.wall}, mean time {self.mean_time!r}"

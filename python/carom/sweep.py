@@ -6,9 +6,9 @@ import tempfile
 
 import numpy
 
-from . import _carom, toml
+from . import _carom, plot, toml
 from .errors import InputError, text_of
-from .results import Result, check_archive
+from .stored import Result, check_archive, opened
 from .system import _SECTION_OF, System
 
 
@@ -70,7 +70,7 @@ class Swept:
         return _carom.make_sweep(self.plan, reports)
 
 
-class Sweep(Result):
+class Sweep(Result, archive="sweep"):
     """Results for the values of a key, or for the points of a plane.
 
     results: those of the command, in order; `sweep[i]` is the i-th. keys: records with key and
@@ -101,15 +101,13 @@ class Sweep(Result):
     def results(self) -> list[Result]:
         """The result of each value; of an archive they are read when they are asked for."""
         if self._results is None:
-            from .commands import open as open_archive
-
             made = []
             folder = tempfile.TemporaryDirectory()
             for index in self._outcome.indices:
                 file = os.path.join(folder.name, f"{index}.h5")
                 if not self._outcome.extract(index, file):
                     raise ValueError(f"the sweep stores no archive of its value {index}")
-                result = open_archive(file)
+                result = opened(file)
                 with open(file, "rb") as stream:
                     result._archive = stream.read()
                 result._folder = folder  # its rows are read when they are asked for
@@ -139,10 +137,11 @@ class Sweep(Result):
     def _made_of(self):
         return self._system, self._results
 
+    def _pictures(self):
+        return {"sweep": plot.sweep}
+
     def plot(self, ax=None, y=None):
         """A column of the table against the key, with error bars; of a plane a map."""
-        from . import plot
-
         return plot.sweep(self, ax=ax, y=y)
 
     def _summary(self):

@@ -2,7 +2,7 @@
 
 import json
 
-from . import _carom, toml
+from . import _carom, plot, toml
 from .errors import InputError, path_of, printable, text_of
 
 _KEYS = _carom.keys()
@@ -252,10 +252,11 @@ class System:
         self.plot().figure.savefig(picture, format="svg")
         return picture.getvalue()
 
+    def _pictures(self):
+        return {"table": plot.table}
+
     def plot(self, ax=None, **keywords):
         """Draws the table, its holes and level lines of its potentials."""
-        from . import plot
-
         return plot.table(self, ax=ax, **keywords)
 
 

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Checks that the sources keep the rules of the tables below: dependencies, packages, lengths, format, one version.
 
-    structure.py includes | umbrella | names | libm | length | format | headers | version  [ROOT]
+    structure.py includes | umbrella | names | libm | imports | length | format | headers | version  [ROOT]
 
 Prints one line for each fault; the exit status is then 1.
 """
+import ast
+import graphlib
 import os
 import pathlib
 import platform
@@ -312,8 +314,25 @@ def check_version(root):
             yield f"{name} names version {version}, CMakeLists.txt {found['CMakeLists.txt']}"
 
 
+def check_imports(root):
+    """The modules of the Python package import each other in one direction, inside functions too."""
+    package = root / "python/carom"
+    imports = {}
+    for path in sorted(package.glob("*.py")):
+        if path.stem in ("__init__", "picture"):  # the package's names, and what is run with them
+            continue
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        named = {node.module or alias.name for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.level
+                 for alias in node.names}
+        imports[path.stem] = sorted(name for name in named if (package / f"{name}.py").exists())
+    try:
+        graphlib.TopologicalSorter(imports).prepare()
+    except graphlib.CycleError as circle:
+        yield "python/carom: a circle of imports: " + " imports ".join(reversed(circle.args[1]))
+
+
 SKIPPED = 77
-CHECKS = {"includes": check_includes, "umbrella": check_umbrella, "names": check_names, "libm": check_libm, "length": check_length,
+CHECKS = {"includes": check_includes, "umbrella": check_umbrella, "names": check_names, "libm": check_libm, "imports": check_imports, "length": check_length,
           "format": check_format, "headers": check_headers, "version": check_version}
 
 

@@ -169,6 +169,15 @@ class Version(unittest.TestCase):
                 self.assertTrue(faults("version", files | {name: "none\n"}), name)
 
 
+class Imports(unittest.TestCase):
+    def test_a_circle_is_found(self):
+        package = "python/carom/"
+        files = {package + "low.py": "", package + "high.py": "from . import _compiled, low\n", package + "top.py": "from .high import f\n"}
+        self.assertEqual(faults("imports", files), [])
+        found = faults("imports", files | {package + "low.py": "def f():\n    from .top import g\n"})
+        self.assertEqual(len(found), 1)
+
+
 class Plan(unittest.TestCase):
     def test_a_cycle_is_found(self):
         plan = dict(structure.DEPENDENCIES)
