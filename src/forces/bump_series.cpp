@@ -105,7 +105,10 @@ void add_series(const BumpShape& shape, Vector d, Vector a, Vector b, int degree
   // be multiplied k more times is needed up to degree - k only.
   const double x = 2.0 * dot(d, a), y = 2.0 * dot(d, b), xx = dot(a, a), xy = 2.0 * dot(a, b),
                yy = dot(b, b);
-  std::array<std::array<double, orders>, orders> now{}, next{};  // [power of Y][power of X]
+  std::array<std::array<double, orders>, orders> now, next;  // [power of Y][power of X]
+  const auto rows = static_cast<std::size_t>(degree) + 1;
+  for (std::size_t j = 0; j < rows; ++j)
+    for (std::size_t i = 0; i + j < rows; ++i) now[j][i] = next[j][i] = 0.0;
   now[0][0] = g[static_cast<std::size_t>(degree)];
   for (int k = degree - 1; k >= 0; --k) {
     const int most = degree - k;
@@ -123,7 +126,6 @@ void add_series(const BumpShape& shape, Vector d, Vector a, Vector b, int degree
     next[0][0] = g[static_cast<std::size_t>(k)];
     std::swap(now, next);
   }
-  const auto rows = static_cast<std::size_t>(degree) + 1;
   for (std::size_t j = 0; j < rows; ++j)
     for (std::size_t i = 0; i + j < rows; ++i) to[i + width * j] += now[j][i];
 }

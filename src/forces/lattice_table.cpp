@@ -39,14 +39,14 @@ struct Copy {
   Vector d;  ///< of a node from it
 };
 
-/// The copies about a point that are nearer than `reach`; the nearest `sorted` of them first.
-std::vector<Copy> copies_about(Vector node, const std::vector<Vector>& centers, const Basis& basis,
-                               double reach, std::size_t sorted) {
+/// Calls visit(copy) for the copies about a point that are nearer than `reach`.
+template <class Visit>
+void for_copies_about(Vector node, const std::vector<Vector>& centers, const Basis& basis,
+                      double reach, const Visit& visit) {
   const double area = cross(basis.first, basis.second);
   // |m a + n b| >= |m| area/|b| and |n| area/|a|
   const double high_m = reach * std::sqrt(dot(basis.second, basis.second)) / std::fabs(area);
   const double high_n = reach * std::sqrt(dot(basis.first, basis.first)) / std::fabs(area);
-  std::vector<Copy> found;
   for (const Vector& center : centers) {
     const Vector d = node - center;
     const double m0 = cross(d, basis.second) / area, n0 = cross(basis.first, d) / area;
@@ -55,9 +55,16 @@ std::vector<Copy> copies_about(Vector node, const std::vector<Vector>& centers, 
         const Vector from{d.x - (m * basis.first.x + n * basis.second.x),
                           d.y - (m * basis.first.y + n * basis.second.y)};
         const double square = dot(from, from);
-        if (square <= reach * reach) found.push_back({square, from});
+        if (square <= reach * reach) visit(Copy{square, from});
       }
   }
+}
+
+/// All of them; the nearest `sorted` first.
+std::vector<Copy> copies_about(Vector node, const std::vector<Vector>& centers, const Basis& basis,
+                               double reach, std::size_t sorted) {
+  std::vector<Copy> found;
+  for_copies_about(node, centers, basis, reach, [&](const Copy& copy) { found.push_back(copy); });
   const auto middle = found.begin() + static_cast<std::ptrdiff_t>(std::min(sorted, found.size()));
   std::partial_sort(found.begin(), middle, found.end(), [](const Copy& a, const Copy& b) {
     if (a.square != b.square) return a.square < b.square;
@@ -106,10 +113,11 @@ class ErrorsByDistance {
     for (double r = 0.0; r <= reach + way; r += bin_)
       errors_.push_back(series_errors(shape, r, way));
   }
-  const SeriesErrors& at(const Copy& copy) const {
-    return errors_[std::min(static_cast<std::size_t>(std::sqrt(copy.square) / bin_),
-                            errors_.size() - 1)];
+  std::size_t bin_of(double square) const {
+    return std::min(static_cast<std::size_t>(std::sqrt(square) / bin_), errors_.size() - 1);
   }
+  const SeriesErrors& at(std::size_t bin) const { return errors_[bin]; }
+  std::size_t bins() const { return errors_.size(); }
 
  private:
   double bin_;
@@ -120,6 +128,63 @@ class ErrorsByDistance {
 /// degree.
 constexpr double early_share = 1.0 / 16.0;
 
+/// What the series of the copies about a node leave out, but for the nearest 0, 1, ... of them.
+class ErrorsAtNode {
+ public:
+  explicit ErrorsAtNode(const ErrorsByDistance& errors)
+      : errors_(errors), counts_(errors.bins(), 0) {}
+
+  /// A broad bump has many copies: they are counted by distance.
+  void add(double square) {
+    ++copies_;
+    std::size_t at = near_;
+    if (near_ < most_near)
+      ++near_;
+    else if (square < nearest_[most_near - 1])
+      count(nearest_[at = most_near - 1]);
+    else
+      return count(square);
+    for (; at > 0 && nearest_[at - 1] > square; --at) nearest_[at] = nearest_[at - 1];
+    nearest_[at] = square;
+  }
+  std::size_t copies() const { return copies_; }
+  /// Calls seen(k, errors) for all but the nearest k, k = most_near or all, ..., 0; then it is
+  /// empty.
+  template <class Seen>
+  void take(const Seen& seen) {
+    SeriesErrors sum{};
+    const auto add_bin = [&](std::size_t bin, double times) {
+      const SeriesErrors& error = errors_.at(bin);
+      for (std::size_t n = 0; n < orders; ++n) sum[n] += times * error[n];
+    };
+    for (const std::size_t bin : filled_) {
+      add_bin(bin, counts_[bin]);
+      counts_[bin] = 0.0;
+    }
+    for (std::size_t k = near_;; --k) {
+      seen(k, sum);
+      if (k == 0) break;
+      add_bin(errors_.bin_of(nearest_[k - 1]), 1.0);
+    }
+    filled_.clear();
+    near_ = copies_ = 0;
+  }
+
+ private:
+  static constexpr std::size_t most_near = most_near_beside_a_polynomial;
+  void count(double square) {
+    const std::size_t bin = errors_.bin_of(square);
+    if (counts_[bin] == 0.0) filled_.push_back(bin);
+    counts_[bin] += 1.0;
+  }
+
+  const ErrorsByDistance& errors_;
+  std::vector<double> counts_;  ///< by bin, but for the nearest
+  std::vector<std::size_t> filled_;
+  std::array<double, most_near> nearest_{};  ///< squares of their distances, in order
+  std::size_t near_ = 0, copies_ = 0;
+};
+
 /// The cheapest table on that grid whose error is below the bound.
 Choice best_on(int grid, const BumpShape& shape, const std::vector<Vector>& centers,
                const Basis& basis, double reach) {
@@ -127,18 +192,15 @@ Choice best_on(int grid, const BumpShape& shape, const std::vector<Vector>& cent
   const ErrorsByDistance errors(shape, way, reach);
   std::array<std::array<double, orders>, most_near_beside_a_polynomial + 1> largest{};
   std::size_t most_copies = 0;
+  ErrorsAtNode at_node(errors);
   for (int i = 0; i < grid; ++i)
     for (int j = 0; j < grid; ++j) {
-      const auto copies = copies_about(node_at(basis, grid, i, j), centers, basis, reach + way,
-                                       most_near_beside_a_polynomial);
-      most_copies = std::max(most_copies, copies.size());
-      SeriesErrors sum{};
-      for (std::size_t k = copies.size();; --k) {
-        if (k <= most_near_beside_a_polynomial)
-          for (std::size_t n = 0; n < orders; ++n) largest[k][n] = std::max(largest[k][n], sum[n]);
-        if (k == 0) break;
-        for (std::size_t n = 0; n < orders; ++n) sum[n] += errors.at(copies[k - 1])[n];
-      }
+      for_copies_about(node_at(basis, grid, i, j), centers, basis, reach + way,
+                       [&](const Copy& copy) { at_node.add(copy.square); });
+      most_copies = std::max(most_copies, at_node.copies());
+      at_node.take([&](std::size_t k, const SeriesErrors& sum) {
+        for (std::size_t n = 0; n < orders; ++n) largest[k][n] = std::max(largest[k][n], sum[n]);
+      });
     }
   Choice best{grid, static_cast<int>(most_copies), -1, cost_of(static_cast<int>(most_copies), -1),
               0.0};
@@ -236,7 +298,7 @@ LatticeTable::LatticeTable(const BumpShape& shape, const std::vector<Vector>& ce
       if (t.degree < 0) continue;
       std::vector<double> sum(width * width, 0.0);
       for (std::size_t k = near; k < copies.size(); ++k) {
-        const SeriesErrors& left_out = errors.at(copies[k]);
+        const SeriesErrors& left_out = errors.at(errors.bin_of(copies[k].square));
         int degree = 0;
         while (degree < t.degree && !(left_out[static_cast<std::size_t>(degree)] <=
                                       negligible / static_cast<double>(copies.size())))

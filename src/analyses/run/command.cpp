@@ -17,6 +17,7 @@
 #include "carom/starts/injection.hpp"
 #include "carom/starts/sampler.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/commands/own_step.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/doubts.hpp"
 #include "files/progress.hpp"
@@ -150,6 +151,12 @@ int run(const Options& options) {
   std::optional<files::Progress> preparing(std::in_place, !options.quiet);
   std::unique_ptr<RunArchive> archive;
   std::string output = options.output;
+  ArchiveLock lock;
+  const auto begin_archive = [&](bool force) {
+    if (!output.empty())
+      archive = RunArchive::create(output, loaded, provenance_of(options, loaded.system, 1), force,
+                                   how.trajectory, lock);
+  };
   if (options.resume.empty()) {
     loaded = load(options, run_overrides(options));
     choose_engine(options.engine, loaded.system);
@@ -162,12 +169,11 @@ int run(const Options& options) {
     // From here on a signal must leave a valid archive. Before, it simply ends the program,
     // whatever that computes.
     catch_interrupts();
-    if (!output.empty())
-      archive = RunArchive::create(output, loaded, provenance_of(options, loaded.system, 1),
-                                   options.force, how.trajectory, lock_output(options, output));
+    if (!output.empty()) lock = lock_output(options, output);
+    begin_archive(options.force);
   } else {
     if (output.empty()) output = options.resume;
-    const ArchiveLock lock = lock_output(options, output);
+    lock = lock_output(options, output);
     const StoredRun stored = read_run(options.resume);
     loaded = read_system(stored.system_toml, options.resume + ": /system", run_overrides(options));
     loaded.system.name = stored.system_name;
@@ -198,9 +204,10 @@ int run(const Options& options) {
   how.estimate_state_error = true;
 
   preparing.reset();
-  Counting counting(archive.get());
+  OwnStep own_step(options);
   SingleRunResult result;
-  {
+  for (;;) {
+    Counting counting(archive.get());
     files::Progress progress(!options.quiet);
     how.interrupted = [&] {
       if (progress.due()) {
@@ -223,6 +230,11 @@ int run(const Options& options) {
       how.started = [&](const World& world) { archive->start(start_rows(world, *system.table)); };
     }
     result = run_single(system, counting, how);
+    EnergyError energy;
+    for (const RunEnd& end : result.particles) energy += end.energy_error;
+    if (result.interrupted || !own_step.halve(loaded, energy)) break;
+    archive.reset();
+    begin_archive(true);
   }
   const std::string status = run_status(result);
   if (archive) archive->finish(result, status);
@@ -231,8 +243,11 @@ int run(const Options& options) {
   const std::string archive_name = named_archive(options, output);
   const Doubts doubts = doubts_of(system, result);
   print_report(
-      options, [&] { return run_json(system, result, status, archive_name); },
-      [&] { return run_text(system, result, status, archive_name, options.verbose); },
+      options,
+      [&] { return own_step.with_halvings(run_json(system, result, status, archive_name)); },
+      [&] {
+        return run_text(system, result, status, archive_name, options.verbose) + own_step.text();
+      },
       doubts.text());
   return doubts.status(!result.interrupted);
 }

@@ -10,6 +10,7 @@
 #include "carom/analyses/section/archive.hpp"
 #include "carom/events/world.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/commands/own_step.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/doubts.hpp"
 #include "files/progress.hpp"
@@ -61,23 +62,28 @@ int section(const Options& options) {
   SectionOptions how;
   how.threads = threads_of(options);
   std::optional<files::Progress> preparing(std::in_place, !options.quiet);
-  const LoadedSystem loaded = system_of_section(options);
+  LoadedSystem loaded = system_of_section(options);
   preparing.reset();
   const System& system = loaded.system;
 
   how.interrupted = &catch_interrupts();  // before there is an archive
+  ArchiveLock lock;
+  if (!options.output.empty()) lock = lock_output(options, options.output);
   std::unique_ptr<SectionArchive> archive;
-  if (!options.output.empty())
-    archive = std::make_unique<SectionArchive>(options.output, loaded,
-                                               provenance_of(options, system, how.threads),
-                                               options.force, lock_output(options, options.output));
+  const auto begin_archive = [&] {
+    if (!options.output.empty())
+      archive = std::make_unique<SectionArchive>(
+          options.output, loaded, provenance_of(options, system, how.threads), options.force, lock);
+  };
+  begin_archive();
   OrbitLines lines;
   how.points = [&](const std::vector<SectionPoint>& points) {
     if (archive) archive->append(points);
     lines.add(points);
   };
+  OwnStep own_step(options);
   SectionResult result;
-  {
+  for (;;) {
     files::Progress progress(!options.quiet);
     const double all = static_cast<double>(section_orbits(system));
     if (progress.enabled())
@@ -88,6 +94,10 @@ int section(const Options& options) {
               files::with_prefix(static_cast<double>(points) / progress.seconds()) + "points/s");
       };
     result = run_section(system, how);
+    if (!result.complete || !own_step.halve(loaded, result.energy_error)) break;
+    lines = {};
+    archive.reset();
+    begin_archive();
   }
   const std::string status = result.complete ? "completed" : "interrupted";
   if (archive) archive->finish(result, status);
@@ -95,10 +105,11 @@ int section(const Options& options) {
   const Doubts doubts = doubts_of(system, result);
   warn_of(result.reports, doubts.failed);
   print_report(
-      options, [&] { return section_json(system, result, status, archive_name); },
+      options,
+      [&] { return own_step.with_halvings(section_json(system, result, status, archive_name)); },
       [&] {
         return section_text(system, result, lines, archive_name, options.verbose) +
-               (archive ? "" : "-o FILE.h5 stores the points\n");
+               own_step.text() + (archive ? "" : "-o FILE.h5 stores the points\n");
       },
       doubts.text());
   return doubts.status(result.complete);

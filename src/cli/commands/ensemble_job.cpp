@@ -29,12 +29,23 @@ SystemOverrides overrides_of(const Options& options) {
   return overrides;
 }
 
+// Keys that may differ between a system and what is stored of it. A step that the program chose is
+// one: it may have halved it since.
+std::vector<std::string> open_keys(const StoredEnsemble& stored, const LoadedSystem& asked) {
+  std::vector<std::string> keys = keys_of_reports(stored);
+  if (asked.system.dynamics.integrator.step_chosen &&
+      system_of(stored).system.dynamics.integrator.step_chosen)
+    keys.emplace_back("integrator.step");
+  return keys;
+}
+
 // Is it the value of the sweep's plan?
 void refuse_other_value(const ValueOfSweep& value, const StoredEnsemble& stored,
                         const LoadedSystem& loaded) {
   // As this build writes it: that of an earlier one may lack keys.
-  const std::string planned = read_system(value.system_toml, value.system_name).resolved_toml;
-  const std::string differs = difference(planned, loaded.resolved_toml, keys_of_reports(stored));
+  const LoadedSystem planned = read_system(value.system_toml, value.system_name);
+  const std::string differs =
+      difference(planned.resolved_toml, loaded.resolved_toml, open_keys(stored, planned));
   if (!differs.empty())
     throw InputError(Place{stored.file, 0, 0, ""},
                      fmt::format("it is not value {} of the sweep: {}", value.index + 1, differs),
@@ -53,7 +64,7 @@ LoadedSystem loaded_of(const StoredEnsemble& stored, const Options& options) {
           ? read_system(stored.system_toml, stored.file + ": /system", overrides_of(options))
           : load_system(options.system, overrides_of(options));
   const std::string differs =
-      difference(stored.system_toml, loaded.resolved_toml, keys_of_reports(stored));
+      difference(stored.system_toml, loaded.resolved_toml, open_keys(stored, loaded));
   if (!differs.empty() && !options.system.empty() && options.system != stored.system_name)
     refuse(
         fmt::format("the system is {}, not {}: {}", options.system, stored.system_name, differs));
@@ -61,6 +72,8 @@ LoadedSystem loaded_of(const StoredEnsemble& stored, const Options& options) {
   if (options.of_sweep) refuse_other_value(*options.of_sweep, stored, loaded);
   System& system = loaded.system;
   system.name = stored.system_name;
+  if (system.dynamics.integrator.step_chosen)
+    system.dynamics.integrator.step = system_of(stored).system.dynamics.integrator.step;
   if (!system.run.window)
     system.run.window =
         read_system(stored.system_toml, stored.file + ": /system").system.run.window;

@@ -13,6 +13,7 @@
 #include "carom/base/error.hpp"
 #include "carom/files/ensembles.hpp"
 #include "cli/commands/ensemble_job.hpp"
+#include "cli/commands/own_step.hpp"
 #include "cli/common.hpp"
 #include "cli/ranks.hpp"
 #include "cli/reports/ensemble_reports.hpp"
@@ -65,21 +66,23 @@ inline EnsembleContext context_of(const Options& options, std::string status, st
 /// Prints a result; the exit status. `complete`: it was not interrupted.
 template <class Result>
 int report(const Options& options, const System& system, const Result& result,
-           const EnsembleContext& context, bool complete) {
+           const EnsembleContext& context, bool complete, const OwnStep* own_step = nullptr) {
   const Doubts doubts = doubts_of(system, result);
   warn_of(result.reports, doubts.failed);
+  const auto json = [&] { return result_json(system, result, context); };
+  const auto text = [&] { return result_text(system, result, context); };
   print_report(
-      options, [&] { return result_json(system, result, context); },
-      [&] { return result_text(system, result, context); }, doubts.text());
+      options, [&] { return own_step ? own_step->with_halvings(json()) : json(); },
+      [&] { return own_step ? text() + own_step->text() : text(); }, doubts.text());
   return doubts.status(complete);
 }
 
 template <class Result>
 int report(const Options& options, const EnsembleJob<Result>& job, const Result& result,
-           const std::string& status) {
+           const std::string& status, const OwnStep* own_step = nullptr) {
   return report(options, job.loaded.system, result,
                 context_of(options, status, named_archive(options, job.output), job.shard),
-                result.complete);
+                result.complete, own_step);
 }
 
 template <class Result>
@@ -94,7 +97,8 @@ void say_how_to_go_on(const Options& options, const EnsembleJob<Result>& job, st
 // said also if the report cannot be written.
 template <class Result>
 int report_and_say_how_to_go_on(const Options& options, const EnsembleJob<Result>& job,
-                                const Result& result, const std::string& status) {
+                                const Result& result, const std::string& status,
+                                const OwnStep& own_step) {
   const bool said = options.of_sweep && options.of_sweep->index > 0;
   if (options.isa != "auto" && !result.lanes && !said)
     warn("--isa changed nothing: these particles fly one after the other, in no lanes");
@@ -103,7 +107,7 @@ int report_and_say_how_to_go_on(const Options& options, const EnsembleJob<Result
   };
   int exit = done;
   try {
-    exit = report(options, job, result, status);
+    exit = report(options, job, result, status, &own_step);
   } catch (...) {
     go_on();
     throw;
@@ -167,14 +171,21 @@ int run_alone(const Options& options) {
   }
   how.part = job.shard.range(job.loaded.system.run.trajectories);
   if (job.stored) how.before = &job.stored->result;
-  std::unique_ptr<EnsembleArchive<Result>> archive = archive_of(options, job);
-  how.journal = archive.get();
+  std::unique_ptr<EnsembleArchive<Result>> archive;
+  OwnStep own_step(options);
   Result result;
-  try {
-    result = fly(options, job.loaded.system, how);
-  } catch (...) {
-    if (archive) say_how_to_go_on(options, job, archive->kept());
-    throw;
+  for (;;) {
+    archive = archive_of(options, job);
+    how.journal = archive.get();
+    try {
+      result = fly(options, job.loaded.system, how);
+    } catch (...) {
+      if (archive) say_how_to_go_on(options, job, archive->kept());
+      throw;
+    }
+    if (!result.complete || !own_step.halve(job.loaded, result.energy_error)) break;
+    archive.reset();
+    if (!job.output.empty()) remove_checkpoint(job.output);
   }
   try {
     refuse_nothing(options, job.loaded.system, result);
@@ -192,7 +203,7 @@ int run_alone(const Options& options) {
   }
   archive.reset();  // whatever becomes of the report
   job.lock.reset();
-  return report_and_say_how_to_go_on(options, job, result, status_of(result.complete));
+  return report_and_say_how_to_go_on(options, job, result, status_of(result.complete), own_step);
 }
 
 }  // namespace carom::cli

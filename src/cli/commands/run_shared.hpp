@@ -13,6 +13,7 @@
 #include "cli/temporary_folder.hpp"
 #include "files/checkpoint/rank_parts.hpp"
 #include "files/checkpoint/work_folder.hpp"
+#include "files/toml/halved_step.hpp"
 
 namespace carom::cli {
 
@@ -49,10 +50,11 @@ void fly_share(const Options& options, EnsembleJob<Result>& job, const Ranks& ra
   }
 }
 
-/// What the first rank makes of all shares.
+/// What the first rank makes of all shares; nothing where all ranks are to begin again, with half
+/// the step.
 template <class Result>
-int add_up(const Options& options, EnsembleJob<Result>& job, const Ranks& ranks,
-           const std::string& file) {
+std::optional<int> add_up(const Options& options, EnsembleJob<Result>& job, const Ranks& ranks,
+                          const std::string& file, OwnStep& own_step) {
   std::vector<std::string> files;
   if (job.stored) files.push_back(job.output);
   for (int rank = 0; rank < ranks.size(); ++rank) files.push_back(files::part_of_rank(file, rank));
@@ -61,6 +63,7 @@ int add_up(const Options& options, EnsembleJob<Result>& job, const Ranks& ranks,
       throw InputError(Place{part, 0, 0, ""}, "the share of a rank is not there",
                        "-o FILE on a disk that all machines see");
   SumOfParts<Result> sum = files::sum_of_ranks<Result>(job.output, files, job.shard);
+  if (sum.result.complete && own_step.halve(job.loaded, sum.result.energy_error)) return {};
   complete_sum(options, job.loaded.system, sum.result);
   try {
     refuse_nothing(options, job.loaded.system, sum.result);
@@ -80,7 +83,7 @@ int add_up(const Options& options, EnsembleJob<Result>& job, const Ranks& ranks,
     throw;
   }
   job.lock.reset();
-  return report_and_say_how_to_go_on(options, job, sum.result, sum.status);
+  return report_and_say_how_to_go_on(options, job, sum.result, sum.status, own_step);
 }
 
 template <class Result>
@@ -114,10 +117,18 @@ int run_shared(const Options& asked, Ranks& ranks) {
     }
     const std::string file = ranks.tell(temporary ? temporary->file("sum") : job.output);
     if (!first) job = job_of<Result>(options, Sharing::other);
-    fly_share(options, job, ranks, files::part_of_rank(file, ranks.rank()));
-    ranks.meet();
-    return std::stoi(
-        ranks.tell(first ? std::to_string(add_up(options, job, ranks, file)) : std::string()));
+    OwnStep own_step(options);
+    constexpr const char* again = "again";
+    for (;;) {
+      fly_share(options, job, ranks, files::part_of_rank(file, ranks.rank()));
+      ranks.meet();
+      std::string status = again;
+      if (first)
+        if (const auto exit = add_up(options, job, ranks, file, own_step))
+          status = std::to_string(*exit);
+      if (status = ranks.tell(status); status != again) return std::stoi(status);
+      if (!first) files::halve_step(job.loaded);
+    }
   } catch (...) {
     ranks.give_up();
     throw;

@@ -1,0 +1,37 @@
+// A step that the program chose and that keeps the energy too badly is halved.
+#pragma once
+
+#include <string>
+
+#include "carom/events/energy.hpp"
+#include "cli/options.hpp"
+#include "files/json.hpp"
+
+namespace carom {
+struct LoadedSystem;
+}
+
+namespace carom::cli {
+
+/// The step of a command that flies its system from the start. A step of the user's stays, and so
+/// does that of a part: of a shard, of what goes on.
+class OwnStep {
+ public:
+  explicit OwnStep(const Options&);
+
+  /// Is all to begin again, as the energy changed by more than integrator.energy_tolerance and half
+  /// the step may help? Then it halves the step, and says so on standard error. It helps no more
+  /// where the last half has not halved the error.
+  bool halve(LoadedSystem&, const EnergyError&);
+
+  /// A report with the key `step_halvings`, and a line of a text; nothing where there were none.
+  files::Json with_halvings(files::Json report) const;
+  std::string text() const;
+
+ private:
+  bool may_;
+  int halvings_ = 0;
+  double error_ = 0.0;  ///< with the step before
+};
+
+}  // namespace carom::cli
