@@ -3,6 +3,17 @@ find_package(CGAL 5.5 REQUIRED)
 find_package(HDF5 1.10.5 REQUIRED COMPONENTS C)
 add_compile_definitions(H5_USE_110_API)  # in 1.12 and later functions and structs have other forms
 find_package(fmt 9 REQUIRED)
+# With -stdlib=libc++ on Linux, whose packages are made with GCC's library of C++, fmt's and GoogleTest's cannot be linked.
+set(CAROM_FMT fmt::fmt)
+if(CMAKE_CXX_FLAGS MATCHES "-stdlib=libc[+][+]" AND NOT APPLE)
+  set(CAROM_FOREIGN_LIBRARY ON)
+  set(CAROM_FMT fmt::fmt-header-only)
+  add_compile_definitions(_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION)  # for Boost before 1.81
+endif()
+find_path(FAST_FLOAT_INCLUDE_DIR fast_float/fast_float.h)  # for libraries of C++ that read no doubles: libc++ before 20
+if(FAST_FLOAT_INCLUDE_DIR)
+  include_directories(SYSTEM ${FAST_FLOAT_INCLUDE_DIR})
+endif()
 find_package(CLI11 2.1 REQUIRED)
 find_package(tomlplusplus 3.3 REQUIRED)
 find_package(SUNDIALS REQUIRED COMPONENTS arkode cvode nvecserial)

@@ -32,6 +32,7 @@
 #include "carom/analyses/section/archive.hpp"
 #include "carom/analyses/splitting.hpp"
 #include "carom/analyses/splitting/fit.hpp"
+#include "carom/base/decimal.hpp"
 #include "carom/base/digest.hpp"
 #include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"

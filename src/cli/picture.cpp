@@ -13,7 +13,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -22,6 +21,7 @@
 #include "carom/files/archive.hpp"
 #include "carom/starts/sampler.hpp"
 #include "cli/common.hpp"
+#include "files/platform.hpp"
 
 extern char** environ;
 
@@ -66,8 +66,7 @@ std::string ending_of(const std::string& file) {
 
 // Where the module is, seen from the program: in a build, or where both are installed.
 std::string module_path() {
-  std::error_code error;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  const std::filesystem::path self = files::path_of_program();
   std::string path;
   for (const char* folder : {"python", "../lib/python3/dist-packages"})
     path += (path.empty() ? "" : ":") + (self.parent_path() / folder).string();

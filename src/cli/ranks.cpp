@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "carom/base/error.hpp"
+#include "files/platform.hpp"
 
 namespace carom::cli {
 
@@ -48,8 +49,7 @@ int rank_by_environment() {
 
 void hand_over_to_mpi(char** arguments) {
   if (!rank_in_environment()) return;
-  std::error_code error;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  const std::filesystem::path self = files::path_of_program();
   for (const char* other : {"carom-mpi", "../libexec/carom/carom-mpi"})
     ::execv((self.parent_path() / other).c_str(), arguments);
 }

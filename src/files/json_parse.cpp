@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdint>
 
+#include "carom/base/decimal.hpp"
 #include "carom/base/error.hpp"
 #include "files/json.hpp"
 
@@ -75,10 +76,7 @@ class Json::Parser {
     const std::size_t begin = at_;
     at_ = std::min(text_.find_first_of(",]} \n\t\r", at_), text_.size());
     const std::string_view found = text_.substr(begin, at_ - begin);
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(found.data(), found.data() + found.size(), number);
-    const bool is_number = error == std::errc{} && end == found.data() + found.size();
-    if (!is_number && found != "true" && found != "false" && found != "null") fail();
+    if (!nearest_double(found) && found != "true" && found != "false" && found != "null") fail();
     return std::string(found);
   }
 
@@ -137,11 +135,7 @@ std::optional<std::string> Json::string() const {
 
 std::optional<double> Json::number() const {
   if (kind_ != Kind::scalar) return {};
-  const std::string text = string().value_or(text_);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return {};
-  return value;
+  return nearest_double(string().value_or(text_));
 }
 
 }  // namespace carom::files

@@ -13,11 +13,18 @@ Progress::Progress(bool wanted, double done)
       done_(done),
       start_(Clock::now()),
       last_(start_) {
-  if (enabled_) clock_ = std::jthread([this](const std::stop_token& stop) { tell_time(stop); });
+  if (enabled_) clock_ = std::thread([this] { tell_time(); });
 }
 
 Progress::~Progress() {
-  clock_ = {};  // waits for its end
+  if (enabled_) {
+    {
+      const std::lock_guard lock(mutex_);
+      ended_ = true;
+    }
+    end_.notify_all();
+    clock_.join();
+  }
   if (shown_) std::fputs("\r\033[K", stderr);
 }
 
@@ -47,10 +54,10 @@ void Progress::show(double share, const std::string& rate) {
   std::fflush(stderr);
 }
 
-void Progress::tell_time(const std::stop_token& stop) {
+void Progress::tell_time() {
   constexpr std::chrono::seconds interval(2);
   std::unique_lock lock(mutex_);
-  while (!stopped_.wait_for(lock, stop, interval, [&stop] { return stop.stop_requested(); })) {
+  while (!end_.wait_for(lock, interval, [this] { return ended_; })) {
     if (Clock::now() - last_ < interval) continue;
     shown_ = true;
     std::fputs(fmt::format("{}  {} so far\033[K", line_, as_duration(seconds())).c_str(), stderr);

@@ -30,15 +30,15 @@ class Progress {
 
  private:
   using Clock = std::chrono::steady_clock;
-  void tell_time(const std::stop_token&);
+  void tell_time();
 
-  bool enabled_, shown_ = false;
+  bool enabled_, shown_ = false, ended_ = false;
   double done_;
   Clock::time_point start_, last_;
   std::string line_ = "\rpreparing";
-  std::mutex mutex_;  ///< of the line, and of when and whether it was shown
-  std::condition_variable_any stopped_;
-  std::jthread clock_;  ///< last: it uses what stands above
+  std::mutex mutex_;  ///< of the line, of when and whether it was shown, and of the end
+  std::condition_variable end_;
+  std::thread clock_;  ///< last: it uses what stands above
 };
 
 /// How long the rest will take after `seconds` took the work from the share `from` to `share`.

@@ -3,6 +3,7 @@
 // With CAROM_SOAK set all schemes are measured and printed, else a few.
 // The loop below is the plainest one that steps, finds the first wall, reflects and goes on. The
 // wells are off the centre: a centred one hides errors by symmetry.
+#if __has_include(<quadmath.h>)  // GCC on x86-64
 #include <gtest/gtest.h>
 
 #include <boost/multiprecision/float128.hpp>
@@ -159,3 +160,4 @@ INSTANTIATE_TEST_SUITE_P(Settings, WallsInSteps, testing::ValuesIn(settings),
 
 }  // namespace
 }  // namespace carom
+#endif

@@ -10,8 +10,19 @@ namespace carom::tests {
 
 #ifdef __SIZEOF_FLOAT128__
 __extension__ typedef __float128 Quad;
+extern "C" {  // of libquadmath, whose header GCC alone finds
+Quad sinq(Quad);
+Quad cosq(Quad);
+Quad atan2q(Quad, Quad);
+}
+inline Quad sine(Quad x) { return sinq(x); }
+inline Quad cosine(Quad x) { return cosq(x); }
+inline Quad angle(Quad y, Quad x) { return atan2q(y, x); }
 #else
 using Quad = long double;  // 128 bits where there is no other name for them
+inline Quad sine(Quad x) { return std::sin(x); }
+inline Quad cosine(Quad x) { return std::cos(x); }
+inline Quad angle(Quad y, Quad x) { return std::atan2(y, x); }
 #endif
 using QuadVector = geometry::BasicVector<Quad>;
 

@@ -67,6 +67,7 @@ PACKAGES = {
     r"(arb|acb|arf|mag)(_\w+)?\.h|flint": r"src/certify/",
     r"gsl/": r"src/analyses/relax/|src/orbits/",
     r"Random123/": r"src/base/random\.cpp",
+    r"fast_float/": r"src/base/decimal\.cpp",
     r"toml\+\+/|hdf5": r"src/files/",
     r"zlib|isa-l/": r"src/files/hdf5/(deflate|sums)\.cpp",
     r"CLI/": r"src/cli/(options\.cpp|option_faults\.cpp|command_list\.cpp|command_options\.hpp)",

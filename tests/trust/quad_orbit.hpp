@@ -1,8 +1,6 @@
 // The true orbit among segments and circular arcs, in 113 bits: a slow, obvious witness.
 #pragma once
 
-#include <quadmath.h>
-
 #include <vector>
 
 #include "geometry/quad.hpp"
@@ -57,7 +55,7 @@ class QuadOrbit {
   std::pair<QuadVector, QuadVector> at(const Quad& t) const {
     const QuadVector v = now_.velocity, j = right(v);
     if (omega_ == 0) return {now_.position + t * v, v};
-    const Quad s = sinq(omega_ * t), half = sinq(omega_ * t / 2), c = cosq(omega_ * t);
+    const Quad s = sine(omega_ * t), half = sine(omega_ * t / 2), c = cosine(omega_ * t);
     return {now_.position + (s / omega_) * v + (2 * half * half / omega_) * j, c * v + s * j};
   }
   static QuadVector normal(const QuadWall& w, const QuadVector& x) {
@@ -85,7 +83,7 @@ class QuadOrbit {
     const QuadVector e = now_.position - w.curve.centre;
     const Quad a = dot(v, v), b = dot(e, v), c = dot(e, e) - w.r2, d = b * b - a * c;
     if (d < 0) return {};
-    const Quad q = sqrtq(d);
+    const Quad q = root(d);
     return {(-b - q) / a, (-b + q) / a};
   }
   std::vector<Quad> larmor_meetings(const QuadWall& w) const {
@@ -96,7 +94,7 @@ class QuadOrbit {
     Quad half2 = 0;
     if (w.curve.segment) {
       const QuadVector d = w.curve.to - w.curve.from;
-      along = (1 / sqrtq(dot(d, d))) * d;
+      along = (1 / root(dot(d, d))) * d;
       foot = w.curve.from + dot(centre - w.curve.from, along) * along;
       half2 = rho2 - dot(foot - centre, foot - centre);
     } else {
@@ -104,18 +102,18 @@ class QuadOrbit {
       const Quad d2 = dot(d, d);
       const Quad share = (rho2 - w.r2 + d2) / (2 * d2);
       foot = centre + share * d;
-      along = (1 / sqrtq(d2)) * left(d);
+      along = (1 / root(d2)) * left(d);
       half2 = rho2 - share * share * d2;
     }
     if (half2 < 0) return {};
-    const Quad half = sqrtq(half2);
+    const Quad half = root(half2);
     std::vector<Quad> times;
     for (const Quad& sign : {Quad(1), Quad(-1)}) {
       const QuadVector to = (foot + (sign * half) * along) - centre, from = now_.position - centre;
       // Clockwise for a positive omega.
       const Quad turn = omega_ > 0 ? cross(to, from) : cross(from, to);
-      Quad angle = atan2q(turn, dot(from, to));
-      if (angle < 0) angle += 8 * atan2q(1, 1);
+      Quad angle = tests::angle(turn, dot(from, to));
+      if (angle < 0) angle += 8 * tests::angle(1, 1);
       times.push_back(angle / magnitude(omega_));
     }
     return times;

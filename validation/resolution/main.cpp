@@ -101,7 +101,7 @@ class Referee {
   }
 
   int run() {
-    std::vector<std::jthread> workers;
+    std::vector<std::thread> workers;
     for (int i = 0; i < options_.jobs; ++i)
       workers.emplace_back([this] {
         while (true) {
@@ -110,7 +110,7 @@ class Referee {
           one(options_.from + done);
         }
       });
-    workers.clear();
+    for (std::thread& worker : workers) worker.join();
     print();
     return failures_ == 0 ? 0 : 1;
   }

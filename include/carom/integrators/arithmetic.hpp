@@ -1,9 +1,9 @@
 // What the integrators ask of an arithmetic besides + - * / and comparisons.
 #pragma once
 
-#include <charconv>
 #include <string_view>
 
+#include "carom/base/decimal.hpp"
 #include "carom/base/elementary.hpp"
 
 namespace carom {
@@ -22,11 +22,7 @@ struct Arithmetic;
 /// The arithmetic of every run: the same bits on every machine.
 template <>
 struct Arithmetic<double> {
-  static double parse(std::string_view decimal) {
-    double x = 0.0;
-    std::from_chars(decimal.data(), decimal.data() + decimal.size(), x);
-    return x;
-  }
+  static double parse(std::string_view decimal) { return nearest_double(decimal).value_or(0.0); }
   static SineCosine<double> turn(double angle) {
     const elementary::SinCos value = elementary::sincos(angle);
     return {value.sin, value.cos};

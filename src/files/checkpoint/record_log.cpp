@@ -15,6 +15,7 @@
 #include "carom/base/digest.hpp"
 #include "carom/base/error.hpp"
 #include "files/checkpoint/work_folder.hpp"
+#include "files/platform.hpp"
 
 namespace carom::files {
 
@@ -145,7 +146,7 @@ void RecordLog::mark() {
 
 std::vector<RecordLog::Piece> RecordLog::sync() {
   // An error is reported once; after it the state of the disk is unknown.
-  if (!broken_ && ::fdatasync(descriptor_) != 0) broken_ = errno;
+  if (!broken_ && !sync_contents(descriptor_)) broken_ = errno;
   if (broken_) {
     errno = broken_;
     fail("write");

@@ -17,6 +17,7 @@
 #include "carom/files/archive.hpp"
 #include "files/checkpoint/rank_parts.hpp"
 #include "files/checkpoint/sweep_files.hpp"
+#include "files/platform.hpp"
 
 namespace carom {
 
@@ -44,7 +45,7 @@ void sync_folder_with(const std::string& file) {
   const int descriptor =
       ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
-  ::fsync(descriptor);
+  sync_all(descriptor);
   ::close(descriptor);
 }
 
@@ -163,7 +164,7 @@ bool files::write_new_file(const std::string& path, std::string_view bytes, bool
     ok = count > 0;
     if (ok) at += static_cast<std::size_t>(count);
   }
-  ok = ok && (!synced || ::fsync(descriptor) == 0);
+  ok = ok && (!synced || sync_all(descriptor));
   const int error = errno;
   ok = ::close(descriptor) == 0 && ok;
   if (!ok) errno = error;

@@ -20,6 +20,7 @@
 #include "files/checkpoint/sweep_files.hpp"
 #include "files/hdf5/checksums.hpp"
 #include "files/hdf5/stored_rows.hpp"
+#include "files/platform.hpp"
 
 namespace carom {
 
@@ -39,7 +40,7 @@ std::string utc_now() {
 // Data are on the disk only after this; a full disk may show only here.
 void sync(const std::string& path, int flags, const std::string& name) {
   const int descriptor = ::open(path.c_str(), flags);
-  const bool ok = descriptor >= 0 && ::fsync(descriptor) == 0;
+  const bool ok = descriptor >= 0 && sync_all(descriptor);
   const int error = errno;
   if (descriptor >= 0) ::close(descriptor);
   if (!ok) throw InputError(fmt::format("cannot write '{}': {}", name, std::strerror(error)));

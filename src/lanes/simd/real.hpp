@@ -8,6 +8,8 @@
 // Instructions that no kernel uses, and that a processor need not have.
 #define HWY_DISABLE_PCLMUL_AES
 #define HWY_DISABLE_F16C
+#define TOOLCHAIN_MISS_SYS_AUXV_H  // on ARM: no choice among targets at run time, which would bring
+                                   // AES
 #include <hwy/highway.h>
 
 #include "base/inline.hpp"

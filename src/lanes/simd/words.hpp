@@ -38,11 +38,8 @@ CAROM_INLINE Words second_where(const Mask& condition, const Words& w) {
 }
 /// The lower half in both places; elsewhere 0.
 CAROM_INLINE Words twice_where(const Mask& condition, const Words& w) {
-  alignas(16) constexpr unsigned char lower[16] = {0, 1, 0, 1, 4,  5,  4,  5,
-                                                   8, 9, 8, 9, 12, 13, 12, 13};
-  const hn::Repartition<unsigned char, decltype(ints)> bytes;
-  const auto twice = hn::TableLookupBytes(w, hn::LoadDup128(bytes, lower));
-  return only_where(condition, hn::BitCast(ints, twice));
+  const Words lower = hn::And(w, hn::Set(ints, 0xffff));
+  return only_where(condition, hn::Or(lower, hn::ShiftLeft<16>(w)));
 }
 template <int byte>
 CAROM_INLINE Real signed_byte(const Words& w) {
