@@ -30,6 +30,7 @@ from .tables import WALL as _WALL
 from .tables import arrow as _arrow
 from .tables import draw_levels as _levels
 from .tables import fit as _fit
+from .tables import make_room as _make_room
 from .tables import table
 from .transport import correlation, diffusion, free_paths, returns
 
@@ -43,7 +44,9 @@ def orbit(run, ax=None, most_hits=2000, names=False, by="particle", **style):
     """The table with the orbit of each particle, from a dot to a ring: arcs are arcs, and an arrow
     shows the direction. Coloured by "particle" or by "time"; style: that of the lines, as color."""
     hits = run.hits[: most_hits * len(run.starts)]
-    cells = {(0, 0), *zip(hits["cell_first"].tolist(), hits["cell_second"].tolist())}
+    cells = {(0, 0)}
+    for rows in (hits, run.samples):
+        cells |= set(zip(rows["cell_first"].tolist(), rows["cell_second"].tolist()))
     cells = cells if len(cells) <= 400 else [(0, 0)]
     made = ax is None
     style = _style_of(style, linewidth=0.7, alpha=0.85)
@@ -83,6 +86,7 @@ def orbit(run, ax=None, most_hits=2000, names=False, by="particle", **style):
             "straight between hits: no samples", (0, 1), xycoords="axes fraction", xytext=(3, -3),
             textcoords="offset points", fontsize="x-small", ha="left", va="top", color="0.4",
         )  # fmt: skip
+    _make_room(ax, 0.04)
     _levels(run.system._loaded("table"), ax)
     if made:
         _fit(ax)
@@ -116,7 +120,6 @@ def _by_time(lines, ax):
         pieces.set_array(path["t"][:-1])
         pieces.set_clim(0.0, last)
         ax.add_collection(pieces)
-    ax.autoscale_view()
     ax.figure.colorbar(pieces, ax=ax, shrink=0.8).ax.set_title("t", fontsize="medium")
 
 
