@@ -26,7 +26,7 @@ MEASURED = re.compile(r"\b\d[\d.]*(?:e[+-]?\d+)? (?:s|ms|us|ns|min|Mhits/s)\b|\b
 
 
 def is_output(language, text):
-    return not language and not text.startswith(("carom ", "pip ", "tar ", "cmake ", "sudo ", "./dev "))
+    return not language and not text.startswith(("carom ", "pip ", "tar ", "cmake ", "sudo ", "./dev ", "mpirun "))
 
 
 class Page:

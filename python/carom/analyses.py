@@ -1,5 +1,7 @@
 """Pictures of analyses: sweeps, Lyapunov exponents, periodic orbits, equilibria, integrators."""
 
+import textwrap
+
 import numpy
 
 from . import _carom
@@ -155,29 +157,18 @@ def orbits(result, ax=None, most=12):
     figure, axes = subplots(down, across, figsize=(2.1 * across, 0.4 + 2.3 * down), squeeze=False)
     for place in axes.flat[len(shown):]:
         place.remove()
-    words = _words(result)
     for number, one in enumerate(shown):
         place = axes.flat[number]
         _orbits(result, place, [number])
         place.set(xticks=[], yticks=[], xlabel="", ylabel="")
         place.spines[:].set_visible(False)
         real, imaginary = one["multipliers"][0]
-        text = f"{words[number]}\nT = {one['period']:.5g}"
+        text = f"{textwrap.shorten(one['word'], 24, placeholder='…')}\nT = {one['period']:.5g}"
         if not one["family"]:
             text += f", Λ = {real:.4g}" + (f" ± {imaginary:.3g} i" if imaginary else "")
         place.set_title(text, fontsize="small")
     title_above(figure, result.system)
     return axes.flatten()[: len(shown)]
-
-
-def _words(result):
-    """The walls that each orbit hits, by numbers in the order of the table where these are digits."""
-    names = [name for name in result.system.walls]
-    words = [one["walls"] for one in result.json["orbits"]]
-    met = [name for name in names if any(name in word for word in words)]
-    if len(met) > 9:
-        return [f"{len(word)} hits" for word in words]
-    return ["".join(str(1 + met.index(name)) for name in word) for word in words]
 
 
 def _orbits(result, ax, numbers):

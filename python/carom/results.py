@@ -379,7 +379,7 @@ class Orbits(Result, archive="orbit"):
     """Periodic orbits, each once but for its start, reversal and the table's symmetries.
 
     orbits (number of orbits,): records with hits, period (time), length (length), action (mass ·
-    length²/time), trace, stability, multipliers, maslov, family, copies, reduced, walls, points; of these
+    length²/time), trace, stability, multipliers, maslov, family, copies, reduced, word, walls, points; of these
     (hits,): wall, s (length), v_parallel, x, y, vx, vy, flight_time (time)
 
     zeta, if asked for: escape_rate (1/time), error, lambda (1/time), lambda_error, orders

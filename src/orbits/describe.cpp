@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string_view>
 
 #include "orbits/across.hpp"
 #include "orbits/maslov.hpp"
@@ -23,11 +25,25 @@ const char* name_of(Stability stability) {
   return "parabolic";
 }
 
-std::string word_of(const PeriodicOrbit& orbit, const Table& table) {
-  std::string word;
-  for (const OrbitHit& hit : orbit.hits)
-    word += (word.empty() ? "" : " ") + table.wall(hit.wall).name;
-  return word;
+OrbitWords words_of(const std::vector<PeriodicOrbit>& orbits, const Table& table) {
+  constexpr std::string_view alphabet = "123456789abcdefghijklmnopqrstuvwxyz";
+  std::map<std::uint32_t, std::string> letters;
+  for (const PeriodicOrbit& orbit : orbits)
+    for (const OrbitHit& hit : orbit.hits) letters[static_cast<std::uint32_t>(hit.wall)];
+  const bool enough = letters.size() <= alphabet.size();
+  OrbitWords all;
+  for (auto& [wall, letter] : letters) {
+    const std::string& name = table.walls[wall].name;
+    letter = enough ? std::string(1, alphabet[all.letters.size()]) : name + " ";
+    if (enough) all.letters.emplace_back(letter, name);
+  }
+  for (const PeriodicOrbit& orbit : orbits) {
+    std::string word;
+    for (const OrbitHit& hit : orbit.hits) word += letters[static_cast<std::uint32_t>(hit.wall)];
+    if (!enough) word.pop_back();
+    all.words.push_back(word);
+  }
+  return all;
 }
 
 namespace orbits {

@@ -29,6 +29,16 @@ TEST(Orbit, PrintsItsKeysAndStoresItsOrbits) {
   EXPECT_NE(text.out.find("hyperbolic"), std::string::npos);
 }
 
+TEST(Orbit, IsNamedByItsWord) {
+  const Shell shell;
+  const Outcome text = shell("$carom orbit three-disc --hits 6");
+  for (const char* word :
+       {" 12\n", " 123\n", " 1213\n", " 121323\n", "1 is disc_1, 2 is disc_2, 3 is disc_3"})
+    EXPECT_NE(text.out.find(word), std::string::npos) << word << text.out;
+  const Outcome json = shell("$carom orbit three-disc --hits 4 --json");
+  EXPECT_NE(json.out.find("\"word\": \"1213\""), std::string::npos);
+}
+
 TEST(Orbit, RefusesWhatItCannotLookFor) {
   const Shell shell;
   for (const char* arguments :

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "carom/base/fields.hpp"
@@ -126,7 +127,14 @@ struct Fields<PeriodicOrbit> {
       field("family", "1", "1: one member of a family", &O::family)};
 };
 
-/// "disc_1 disc_2 …", wall after wall.
-std::string word_of(const PeriodicOrbit&, const Table&);
+/// The names of orbits, as 1213: a letter for each hit. The walls that they hit have the digits 1
+/// to 9 and the letters a to z in the order of the table; where they are more, words are the names
+/// of the walls with blanks between.
+struct OrbitWords {
+  std::vector<std::string> words;  ///< of each orbit
+  std::vector<std::pair<std::string, std::string>>
+      letters;  ///< with the wall of each; may be empty
+};
+OrbitWords words_of(const std::vector<PeriodicOrbit>&, const Table&);
 
 }  // namespace carom

@@ -30,7 +30,7 @@ Json points_json(const Table& table, const PeriodicOrbit& orbit) {
   return points;
 }
 
-Json one_json(const Table& table, const PeriodicOrbit& orbit) {
+Json one_json(const Table& table, const PeriodicOrbit& orbit, const std::string& word) {
   Json walls = Json::array(), multipliers = Json::array();
   for (const OrbitHit& hit : orbit.hits) walls.push(table.wall(hit.wall).name);
   for (const std::complex<double>& m : orbit.multipliers)
@@ -49,7 +49,7 @@ Json one_json(const Table& table, const PeriodicOrbit& orbit) {
                           .set("multiplier", orbit.reduced.multiplier));
   if (table.lattice)
     json.set("shift", Json::array().push(orbit.shift.first).push(orbit.shift.second));
-  json.set("walls", std::move(walls)).set("points", points_json(table, orbit));
+  json.set("word", word).set("walls", std::move(walls)).set("points", points_json(table, orbit));
   return json;
 }
 
@@ -121,29 +121,32 @@ std::string multiplier_text(const PeriodicOrbit& orbit) {
   return fmt::format("{:.6f} + {:.6f} i", m.real(), m.imag());
 }
 
-// The columns with the names of the walls as far as they fit; all of them below each row if
-// `verbose`.
-std::string with_walls(std::vector<Column> columns, const OrbitSearchResult& result,
-                       const Table& table, bool verbose) {
+// The columns with the words of the orbits as far as they fit, whole below each row if `verbose`;
+// then which letter is which wall.
+std::string with_words(std::vector<Column> columns, const OrbitWords& all, bool verbose) {
   const std::size_t rows = columns[0].cells.size();
   const std::size_t used = std::min(line_width, width_of(aligned(columns)) + 2);
-  if (!verbose) columns.push_back({"walls", {}, true});
-  std::vector<std::string> words;
-  for (std::size_t i = 0; i < rows; ++i) {
-    words.push_back(word_of(result.orbits[i], table));
-    const std::size_t letters = std::max(least_letters, line_width - used);
-    if (!verbose)
-      columns.back().cells.push_back(
-          words[i].size() > letters ? words[i].substr(0, letters - 1) + "…" : words[i]);
+  const std::size_t letters = std::max(least_letters, line_width - used);
+  std::string legend;
+  for (const auto& [letter, wall] : all.letters)
+    legend += (legend.empty() ? "  " : ", ") + letter + " is " + wall;
+  if (!legend.empty()) legend = folded(legend, "  ") + "\n";
+  if (!verbose) {
+    columns.push_back({"word", {}, true});
+    for (std::size_t i = 0; i < rows; ++i) {
+      const std::string& word = all.words[i];
+      columns.back().cells.push_back(word.size() > letters ? word.substr(0, letters - 1) + "…"
+                                                           : word);
+    }
+    return aligned(columns) + legend;
   }
-  if (!verbose) return aligned(columns);
   const std::vector<std::string> lines = lines_of(aligned(columns));
   const std::size_t head = lines.size() - rows;
   const std::string indent(8, ' ');
   std::string text;
   for (std::size_t i = 0; i < lines.size(); ++i)
-    text += lines[i] + "\n" + (i < head ? "" : folded(indent + words[i - head], indent) + "\n");
-  return text;
+    text += lines[i] + "\n" + (i < head ? "" : folded(indent + all.words[i - head], indent) + "\n");
+  return text + legend;
 }
 
 }  // namespace
@@ -157,9 +160,13 @@ Json orbit_json(const System& system, const OrbitSearchResult& result,
   json.set("words", result.words).set("recurrences", result.recurrences);
   json.set("unsolved", result.unsolved).set("shadowed", result.shadowed);
   json.set("symmetries", result.symmetries).set("number", result.orbits.size());
+  const OrbitWords names = words_of(result.orbits, *system.table);
+  Json letters = Json::object();
+  for (const auto& [letter, wall] : names.letters) letters.set(letter, wall);
+  json.set("letters", std::move(letters));
   Json orbits = Json::array();
   for (std::size_t i = 0; i < result.orbits.size(); ++i) {
-    Json one = one_json(*system.table, result.orbits[i]);
+    Json one = one_json(*system.table, result.orbits[i], names.words[i]);
     if (i < context.proofs.orbits.size())
       one.set("certified", proof_json(context.proofs.orbits[i], context.proofs.digits));
     orbits.push(std::move(one));
@@ -195,7 +202,7 @@ std::string orbit_text(const System& system, const OrbitSearchResult& result,
   }
   if (context.verbose) columns.push_back(indices);
   const std::size_t rows = columns[0].cells.size();
-  if (rows > 0) text += "\n" + with_walls(columns, result, table, context.verbose);
+  if (rows > 0) text += "\n" + with_words(columns, words_of(result.orbits, table), context.verbose);
   if (rows < result.orbits.size())
     text += fmt::format("  of {}; --verbose prints all\n", grouped(result.orbits.size()));
   text += "\n";
