@@ -9,6 +9,7 @@
 #include "archive_contents.hpp"
 #include "processes.hpp"
 #include "program.hpp"
+#include "sanitizers.hpp"
 
 namespace carom {
 namespace {
@@ -105,9 +106,7 @@ TEST(Merge, PartsMayAskForOtherWindows) {
 
 // Parts with many report times are large in memory: 145 kB a time. One by one they fit.
 TEST(Merge, HoldsOnePartAtATime) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the sanitizer takes more than the limit of memory";
-#endif
+  if (shadows_of_memory) GTEST_SKIP() << "the sanitizer takes more than the limit of memory";
   const Shell shell;
   const Outcome o = shell(
       "for k in $(seq 9); do $carom diffusion lorentz-triangular --trajectories 90 --times "

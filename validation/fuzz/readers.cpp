@@ -30,6 +30,7 @@
 #include <vector>
 
 #include "carom/analyses/compare/archive.hpp"
+#include "carom/analyses/kinds.hpp"
 #include "carom/analyses/orbits/archive.hpp"
 #include "carom/analyses/relax/archive.hpp"
 #include "carom/analyses/run/archive.hpp"
@@ -225,14 +226,16 @@ std::string read_all(const std::string& file) {
     const files::SweepPlan plan = files::kept_plan(file);
     std::string text = plan.json().text();
     for (std::size_t i = 0; i < plan.systems.size(); ++i)
-      if (const auto report = files::kept_report(file, i))
+      if (const auto report = files::kept_report(file, plan, i))
         text += files::Json::parse(*report, files::value_of_sweep(file, i) + ".report").text();
     return text;
   }
   const std::string kind = has_checkpoint(file) ? kind_of_ensemble(file) : kind_of_archive(file);
-  if (kind == "escape") return read_an_ensemble<EscapeResult>(file);
-  if (kind == "diffusion") return read_an_ensemble<DiffusionResult>(file);
-  if (kind == "lyapunov") return read_an_ensemble<LyapunovResult>(file);
+  std::string text;
+  if (for_kind(kind, [&](auto result) {
+        text = read_an_ensemble<typename decltype(result)::type>(file);
+      }))
+    return text;
   if (kind == "run") {
     read_run(file);
     read_hits(file);

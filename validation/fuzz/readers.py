@@ -17,7 +17,7 @@ Verdicts
   crash     a signal, a report of a sanitizer, an exception that is no InputError
   internal  a promise inside the program was broken
   changed   it was read and gave something else, or what was written was refused
-  deaf      more than 10 s of the processor for three readings, or no answer for a minute
+  deaf      more than 10 s of the processor for three readings, or no answer for a minute of it, or for 15 min
   memory    more than 2 GB
   place     an InputError that does not name the file
 Exit status 1 if there is anything but read and refused. Cases that are neither are printed; --keep FOLDER keeps the
@@ -39,7 +39,8 @@ import time
 import mutants
 
 FINE = {"read", "refused"}
-SILENCE = 60.0                 # seconds without an answer
+SILENCE = 60.0                 # seconds of the processor without an answer: a busy machine is no fault
+HANG = 900.0                   # seconds of a clock without an answer
 ENVIRONMENT = {
     "ASAN_OPTIONS": "detect_leaks=0:max_allocation_size_mb=2048:hard_rss_limit_mb=4096:allocator_may_return_null=0",
     "UBSAN_OPTIONS": "print_stacktrace=1",
@@ -61,6 +62,7 @@ SOURCES = {
     "escape": "$carom escape stadium --trajectories 2000 --t-max 20 --per-trajectory -o a.h5 --quiet",
     "diffusion": "$carom diffusion lorentz-triangular --trajectories 50 --t-max 5 -o a.h5 --quiet",
     "lyapunov": "$carom lyapunov mushroom --closed --trajectories 50 --t-max 100 --per-trajectory -o a.h5 --quiet",
+    "returns": "$carom returns stadium --closed --on wall:bottom --trajectories 50 --t-max 100 -o a.h5 --quiet",
     "orbit": "$carom orbit three-disc --hits 4 -o a.h5 --quiet",
     "relax": "$carom relax wigner --starts 5 --set particles.count=5 -o a.h5 --quiet",
     "compare": "$carom compare henon-heiles --steps 0.1,0.05,0.025 --t-max 10 -o a.h5 --quiet",
@@ -109,6 +111,23 @@ class Driver:
         except OSError:  # it has ended
             pass
 
+    def answer(self):
+        """The next line, None where the process has ended. Raises queue.Empty where it is deaf."""
+        begin, used = time.monotonic(), self.processor_seconds()
+        while True:
+            try:
+                return self.answers.get(timeout=1.0)
+            except queue.Empty:
+                if time.monotonic() - begin > HANG or self.processor_seconds() - used > SILENCE:
+                    raise
+
+    def processor_seconds(self):
+        try:
+            fields = pathlib.Path(f"/proc/{self.process.pid}/stat").read_text().rpartition(")")[2].split()
+        except OSError:  # it has ended
+            return 0.0
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
     def why(self):
         self.said.seek(0)
         lines = self.said.read(1_000_000).decode(errors="replace").splitlines()
@@ -126,10 +145,10 @@ def cases(settings, first, count, folder, systems):
             driver = Driver([settings.driver, "archives", folder, str(settings.seed), str(at), str(end - at)], None)
         while at < end:
             try:
-                line = driver.answers.get(timeout=SILENCE)
+                line = driver.answer()
             except queue.Empty:
                 driver.process.kill()
-                yield at, "deaf", f"no answer for {SILENCE:.0f} s"
+                yield at, "deaf", "no answer"
                 at += 1
                 break
             if line is None:
