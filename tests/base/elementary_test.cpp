@@ -154,6 +154,9 @@ TEST_F(ElementaryRounding, HoldsWhereItIsHardest) {
   direction(0xf.d2d9034f224b8p+52, 0x3.0f08a84aad728p+52);
   direction(0x1.43a2619d9e519p+60, 0x2.2958260348d1ap+52);
   direction(0x1.0000000000001p-500, 0x1.8p+0);
+  for (const double x : {0x1.921fb54442d18p+0, -0x1.921fb54442d18p+0}) angle(x);
+  for (std::uint64_t i = 0; i < 5000; ++i)
+    direction(argument(i, -960, -64), argument(i + 1000000, -2, 2));
   // The angle is below 3/2 of the least double by less than the reference's last digit.
   EXPECT_EQ(elementary::atan2(0x1.8p-1073, 2.0), 0x1p-1074);
 }
