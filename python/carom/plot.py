@@ -141,7 +141,7 @@ def energy(run, ax=None):
     ax.set_ylabel("energy")
     ax.margins(y=0.1)
     _legend(ax, fontsize="small", ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0))
-    ax.set_title(_title_of(run.system), pad=22)
+    ax.set_title(_title_of(run.system), pad=22, fontsize=9)
     return ax
 
 
