@@ -22,7 +22,7 @@ ROOT = pathlib.Path(__file__).parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs" / "guide").rglob("*.md"))]
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.M | re.S)
 # What differs from run to run and from machine to machine.
-MEASURED = re.compile(r"\b\d[\d.]*(?:e[+-]?\d+)? (?:s|ms|us|ns|min|Mhits/s)\b|\bon \d+ threads?\b")
+MEASURED = re.compile(r"\b\d[\d.]*(?:e[+-]?\d+)? (?:s|ms|us|ns|min|[kM]?hits/s)\b|\bon \d+ threads?\b")
 
 
 def is_output(language, text):
