@@ -1,5 +1,6 @@
-// The tables of datasets in docs/guide/archive.md are those that the fields of results make. After
-// a change of fields: CAROM_WRITE_PAGES=1 test_files --gtest_filter=FieldTables.*
+// The tables of datasets in docs/guide/archive.md, and of keys of JSON in docs/guide/commands.md,
+// are those that the fields of results make. After a change of fields: CAROM_WRITE_PAGES=1
+// test_files --gtest_filter=FieldTables.*
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -25,7 +26,6 @@
 namespace carom::files {
 namespace {
 
-const std::string path = CAROM_SOURCE "/docs/guide/archive.md";
 const std::string begins = "<!-- fields: ", ends = "<!-- end of fields -->\n";
 
 template <class List>
@@ -35,43 +35,61 @@ std::string columns() {
   return table.text("column");
 }
 template <class Result>
-std::string described(const Result& result) {
-  Reference reference;
+std::string described(const Result& result, Kept kept) {
+  Reference reference(kept);
   analyses::describe(reference, result, load_system("stadium").system);
   return reference.text();
 }
 
-std::map<std::string, std::string> tables() {
+using Tables = std::map<std::string, std::string>;
+
+// Of each kind of ensemble, with all that it may hold.
+Tables ensembles(Kept kept) {
   DiffusionResult diffusion;
   diffusion.free_paths = FreePathSums(1.0);
   LyapunovResult lyapunov;
   lyapunov.spectrum = SpectrumSums(GrowthSums({1.0, 2.0}, 64), 4, 2);
   lyapunov.repeller.emplace();
-  return {{"collisions", columns<Fields<HitRow>>()},
-          {"trajectory", columns<Fields<SampleRow>>()},
-          {"contacts", columns<Fields<ContactRow>>()},
-          {"energy", columns<Fields<EnergyRow>>()},
-          {"state", columns<Fields<ParticleProgress>>()},
-          {"section", columns<Fields<SectionPoint>>()},
-          {"records", columns<ExponentFields>()},
-          {"equilibria", columns<Fields<Equilibrium>>()},
-          {"orbits", columns<Fields<PeriodicOrbit>>()},
-          {"orbit hits", columns<Fields<OrbitHit>>()},
-          {"comparison", columns<Fields<Comparison>>()},
-          {"schemes", columns<Fields<analyses::StoredSchemeRow>>()},
-          {"runs", columns<Fields<analyses::StoredRunRow>>()},
-          {"escape", described(EscapeResult())},
-          {"diffusion", described(diffusion)},
-          {"lyapunov", described(lyapunov)},
-          {"returns", described(ReturnsResult())}};
+  return {{"escape", described(EscapeResult(), kept)},
+          {"diffusion", described(diffusion, kept)},
+          {"lyapunov", described(lyapunov, kept)},
+          {"returns", described(ReturnsResult(), kept)}};
 }
 
-TEST(FieldTables, AreThoseOfTheGuide) {
+Tables datasets() {
+  Tables all = ensembles(Kept::datasets);
+  all.merge(Tables{{"collisions", columns<Fields<HitRow>>()},
+                   {"trajectory", columns<Fields<SampleRow>>()},
+                   {"contacts", columns<Fields<ContactRow>>()},
+                   {"energy", columns<Fields<EnergyRow>>()},
+                   {"state", columns<Fields<ParticleProgress>>()},
+                   {"section", columns<Fields<SectionPoint>>()},
+                   {"records", columns<ExponentFields>()},
+                   {"equilibria", columns<Fields<Equilibrium>>()},
+                   {"orbits", columns<Fields<PeriodicOrbit>>()},
+                   {"orbit hits", columns<Fields<OrbitHit>>()},
+                   {"comparison", columns<Fields<Comparison>>()},
+                   {"schemes", columns<Fields<analyses::StoredSchemeRow>>()},
+                   {"runs", columns<Fields<analyses::StoredRunRow>>()}});
+  return all;
+}
+
+Tables keys() {
+  FieldTable section(Kept::keys);
+  section.add_fields<Fields<SectionResult>>();
+  section.add_fates();
+  section.add_fields<Fields<EnergyError>>();
+  Tables all = ensembles(Kept::keys);
+  all.emplace("section", section.text("key"));
+  return all;
+}
+
+void expect_tables(const std::string& name_of_page, const Tables& all) {
+  const std::string path = CAROM_SOURCE "/docs/guide/" + name_of_page;
   std::stringstream page;
   page << std::ifstream(path).rdbuf();
   std::string text = page.str(), made;
   std::size_t at = 0, found = 0;
-  const std::map<std::string, std::string> all = tables();
   for (std::size_t begin; (begin = text.find(begins, at)) != text.npos; ++found) {
     const std::size_t name = begin + begins.size(), line = text.find(" -->\n", name);
     const std::size_t end = text.find(ends, line);
@@ -88,6 +106,9 @@ TEST(FieldTables, AreThoseOfTheGuide) {
   else
     EXPECT_EQ(text, made) << "CAROM_WRITE_PAGES=1 writes the page";
 }
+
+TEST(FieldTables, OfDatasetsAreThoseOfTheGuide) { expect_tables("archive.md", datasets()); }
+TEST(FieldTables, OfKeysAreThoseOfTheGuide) { expect_tables("commands.md", keys()); }
 
 }  // namespace
 }  // namespace carom::files
