@@ -66,11 +66,16 @@ class Page:
 
     def _python(self, code):
         printed = io.StringIO()
-        with contextlib.redirect_stdout(printed):
-            exec(compile(code, str(self.path), "exec"), self.names)
+        try:
+            with contextlib.redirect_stdout(printed):
+                exec(compile(code, str(self.path), "exec"), self.names)
+        except ModuleNotFoundError:
+            return None  # a package of others that is not here: what it would print is not compared
         return printed.getvalue()
 
     def _output(self, block, printed):
+        if printed is None:
+            return
         start = block.start(2)
         lines = block[2].splitlines(keepends=True)
         left = printed.splitlines()
@@ -87,7 +92,7 @@ class Page:
             start += len(line)
 
     def _fault(self, start, shown, left):
-        place = f"{self.path.relative_to(ROOT)}:{self.text.count(chr(10), 0, start) + 1}"
+        place = f"{os.path.relpath(self.path, ROOT)}:{self.text.count(chr(10), 0, start) + 1}"
         nearest = max(left, key=lambda one: difflib.SequenceMatcher(None, shown, one).ratio(), default="")
         alike = difflib.SequenceMatcher(None, shown, nearest).ratio() > 0.5
         self.faults.append(f"{place}:\n- {shown}\n+ {nearest if alike else '(no line like it)'}")
