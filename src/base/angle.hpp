@@ -67,7 +67,7 @@ template <class Number>
 ///
 /// The direction (|x|, y) is turned back by the nearest of five angles, whose tangents are 0, 1/2,
 /// 1, 2 and infinity; what remains has a tangent q with |q| <= 7/16, and atan q = q + q^3 P(q^2). P
-/// is the minimax polynomial for the relative error: 9e-19 with its coefficients as they stand.
+/// is the minimax polynomial for the relative error: 9e-19 with its coefficients as written.
 /// Errors, u = 2^-53: turning costs nothing but the sum in the denominator (the factors are 0, 1
 /// and 2, and the numerator's difference is exact, its terms lying within a factor 2 of each
 /// other); so q errs by half a unit in its last place without a turn, and by 2u after one by less

@@ -153,7 +153,8 @@ int sign(const Node& x) {
 }
 
 std::optional<double> nearest_double(const Node& x) {
-  // A rational number is told from every tie by some finite precision: a tie has at most 1076 bits.
+  // Some finite precision distinguishes a rational number from every tie: a tie has at most 1076
+  // bits.
   const bool rational = x.operation == Node::Operation::leaf && x.closed.is_rational();
   const mpfr_prec_t most =
       rational ? static_cast<mpfr_prec_t>(2 * most_bits + 4096) : most_precision;

@@ -53,7 +53,7 @@ class NoValue : public std::runtime_error {
 
 /// Numbers are kept exactly up to this many bits (numerator and denominator together).
 inline constexpr std::size_t most_bits = 1u << 17;
-/// Most bits spent on telling a number from zero or from the midpoint of two doubles.
+/// Most bits spent on distinguishing a number from zero or from the midpoint of two doubles.
 inline constexpr mpfr_prec_t most_precision = 1 << 14;
 
 // Each folds what can be folded and throws NoValue where there is no value or it is too long.

@@ -94,7 +94,7 @@ class Grammar {
                std::count_if(text_.begin(), text_.begin() + at, continues_character));
   }
 
-  // Where the character stands in the file, if the file is known.
+  // Where the character is in the file, if the file is known.
   Place place_of(std::size_t at) const {
     Place place = place_;
     if (!dialect.column_in_file || place.line == 0 || place.column == 0) return place;
@@ -119,7 +119,7 @@ class Grammar {
                   : "unexpected " + shown_character(text_, at_),
          expected);
   }
-  // Something stands where an operator or `else_expected` should.
+  // Something is where an operator or `else_expected` should be.
   [[noreturn]] void fail_after_operand(const std::string& else_expected) const {
     const bool operand = is_letter(peek()) || is_digit(peek()) || peek() == '(' || peek() == '.';
     fail_here(std::string(operand ? dialect.product : "an operator (+ - * / ^)") + " or " +
@@ -224,7 +224,7 @@ class Grammar {
     return checked(start, [&] { return meaning_.call(word, arguments); });
   }
 
-  // What stands inside a parenthesis that was opened at `open`.
+  // What is inside a parenthesis that was opened at `open`.
   Value inside(std::size_t open) {
     descend(open);
     const Value value = sum();

@@ -8,7 +8,7 @@
 
 namespace carom::base {
 
-/// What may stand in a text beside characters that are seen.
+/// What a text may have beside visible characters.
 enum class Lines { one, many };
 
 /// The text with a visible name in place of each byte or character that a terminal or XML takes

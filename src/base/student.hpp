@@ -3,7 +3,7 @@
 
 namespace carom::base {
 
-/// Below which a share `p` of Student's t with so many degrees of freedom lies.
+/// Below which a share `p` of Student's t with this many degrees of freedom lies.
 double student_quantile(double p, double degrees);
 /// The share that lies farther from 0 than t, on both sides.
 double student_beyond(double t, double degrees);

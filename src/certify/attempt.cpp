@@ -108,7 +108,7 @@ void Attempt::trim_precision() {
   }
 }
 
-// Flies to the wall; the state stands on it afterwards.
+// Flies to the wall; the state is on it afterwards.
 void Attempt::move_to(const Copy& copy) {
   now_.state->fly(copy, copy.wall == now_.standing && copy.cell == geometry::Cell{}, bits_);
   now_.cell = {now_.cell.first + copy.cell.first, now_.cell.second + copy.cell.second};

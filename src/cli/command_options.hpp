@@ -39,7 +39,7 @@ class Command {
     app_->add_flag(name, value, help)->disable_flag_override();
     return *this;
   }
-  /// A flag that stands for a key of the system.
+  /// A flag that sets a key of the system.
   Command& sets(const char* name, const char* key, const char* value, const char* help) {
     SystemOverrides& o = options_.overrides;
     app_->add_flag_callback(

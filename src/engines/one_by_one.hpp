@@ -42,7 +42,7 @@ class OneByOne : public Engine, private Observer {
   struct Followed {
     motion::FreeTangent tangent;
     GroupTangent* group = nullptr;
-    std::size_t marked = 0;  ///< times that are told
+    std::size_t marked = 0;  ///< times that were reported
     std::uint64_t hits = 0;
   };
   const System& system_;

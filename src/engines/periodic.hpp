@@ -9,7 +9,8 @@
 
 namespace carom::engines {
 
-/// Calls `action`, which must not throw, every so many seconds until it is stopped.
+/// Calls `action`, which must not throw, again and again, this many seconds apart, until it is
+/// stopped.
 class Periodic {
  public:
   Periodic(double seconds, std::function<void()> action)

@@ -110,7 +110,7 @@ double shortest_period(const geometry::Lattice& lattice) {
 }
 
 /// Supports none of which lies in another, but together they cover all. Edges that lie on one
-/// another, or within rounding, could not be told apart by a flight: what stands out of another
+/// another, or within rounding, could not be distinguished by a flight: what sticks out of another
 /// support by less than a millionth of its radius makes that one larger instead, which is as right.
 std::vector<Support> outermost(const std::vector<Support>& all,
                                const std::optional<geometry::Lattice>& lattice) {

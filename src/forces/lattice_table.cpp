@@ -128,7 +128,7 @@ class ErrorsByDistance {
 /// degree.
 constexpr double early_share = 1.0 / 16.0;
 
-/// What the series of the copies about a node leave out, but for the nearest 0, 1, ... of them.
+/// What the series of the copies about a node leave out, except for the nearest 0, 1, ... of them.
 class ErrorsAtNode {
  public:
   explicit ErrorsAtNode(const ErrorsByDistance& errors)
@@ -179,7 +179,7 @@ class ErrorsAtNode {
   }
 
   const ErrorsByDistance& errors_;
-  std::vector<double> counts_;  ///< by bin, but for the nearest
+  std::vector<double> counts_;  ///< by bin, except for the nearest
   std::vector<std::size_t> filled_;
   std::array<double, most_near> nearest_{};  ///< squares of their distances, in order
   std::size_t near_ = 0, copies_ = 0;

@@ -11,7 +11,7 @@
 namespace carom::integrators {
 namespace {
 
-/// After so many internal steps a chain begins anew: CVODE's clock runs on, and what it loses
+/// After this many internal steps a chain begins anew: CVODE's clock runs on, and what it loses
 /// to rounding would grow with it.
 constexpr int longest_chain = 1000;
 constexpr double far = std::numeric_limits<double>::max();

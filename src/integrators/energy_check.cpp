@@ -42,8 +42,8 @@ bool EnergyCheck::allows(const End& from, const End& to, const OdeProblem::Scale
   const double change = excess(from, to, scale);
   const bool was_first = std::exchange(first_, false);
   if (change <= noise_) return true;
-  // Rounding of the potential energy is no error of the step. Close to a jump it could not be told
-  // from that: there steps have become short.
+  // Rounding of the potential energy is no error of the step. Close to a jump it could not be
+  // distinguished from that: there steps have become short.
   if (was_first || !is_short(duration, scale))
     noise_ = std::max(noise_, noise(from, to, scale.position));
   return change <= noise_;

@@ -12,7 +12,7 @@ using geometry::Vector;
 
 namespace {
 
-// The first hit of a flight, as told.
+// The first hit of a flight, as reported.
 class FirstHit : public Observer {
  public:
   void hit(const HitEvent& event) override {

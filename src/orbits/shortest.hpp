@@ -7,7 +7,7 @@ namespace carom::orbits {
 
 /// The chain with its hits moved along their walls until its length is least, as far as the
 /// minimisation gets (GSL's BFGS): nearly an orbit, for Newton's method to end. Between convex
-/// walls that stand apart there is one shortest chain of each word.
+/// separate walls there is one shortest chain of each word.
 Chain shortest(const Boundary&, const Chain&);
 
 }  // namespace carom::orbits

@@ -8,11 +8,11 @@
 //   number(label, value), number_if(there, …)       in archives and JSON
 //   numbers(s), numbers_if(there, s)                the fields of a struct
 //   kept(label, value)                              in archives alone, as all columns below
-//   kept_column(label, values, count)               so many numbers
+//   kept_column(label, values, count)               this many numbers
 //   kept_each(label, count, get)                    get(i) is a reference to the i-th
-//   sums(label, count, get)                         likewise, of exact sums
+//   sums(label, count, get)                         the same for exact sums
 //   rows(make), kept_rows(make)                     computed: the fields of what make() gives
-//   computed(label, make)                           likewise a number or a column, in archives
+//   computed(label, make)                           a computed number or column, in archives
 //   alone
 //
 // `there` is what the system says; readers ask the archive instead, and never call `make`. So the

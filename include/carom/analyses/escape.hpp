@@ -33,7 +33,7 @@ struct EscapeOptions : EnsembleOptions<EscapeResult> {
 
 /// Runs the ensemble, or the part that is asked for. Where a trajectory has several
 /// particles, each of them is an entry of its own in every count; one
-/// that is injected counts from the time 0 on as one that is not gone. Throws InputError where the
+/// that is injected counts from the time 0 on as still there. Throws InputError where the
 /// initial condition is impossible, and whatever `records` and the journal throw.
 EscapeResult run_escape(const System&, const EscapeOptions& = {});
 

@@ -35,7 +35,7 @@ struct OrbitSearchResult {
   std::uint64_t words = 0;        ///< cyclic words of discs that were tried; 0: none
   std::uint64_t recurrences = 0;  ///< of orbits from random starts that were tried
   std::uint64_t unsolved = 0;     ///< Newton's steps did not end at an orbit
-  std::uint64_t shadowed = 0;     ///< solved, but a wall stands in the way
+  std::uint64_t shadowed = 0;     ///< solved, but a wall is in the way
   std::uint64_t symmetries = 1;   ///< isometries of the table
   std::optional<CycleExpansion> cycles;
   bool complete = true;  ///< not interrupted
@@ -56,8 +56,8 @@ struct Fields<OrbitSearchResult> {
 };
 
 /// Looks for the periodic orbits of one free particle, holes closed. Between discs in the open
-/// plane it tries every cyclic word of discs: without field these are all orbits whose discs stand
-/// apart. Elsewhere it tries the closest recurrences of random orbits, and may miss orbits. The
+/// plane it tries every cyclic word of discs: without field these are all orbits of separate
+/// discs. Elsewhere it tries the closest recurrences of random orbits, and may miss orbits. The
 /// same orbits on any number of threads. Throws InputError where there is no such particle or
 /// nothing to hit.
 OrbitSearchResult find_orbits(const System&, const OrbitSearchOptions& = {});

@@ -140,7 +140,7 @@ struct SingleRunOptions {
   double seconds = 0, cpu_seconds = 0;   ///< of that part
   std::function<bool()>
       interrupted;  ///< asked between events, and while starts are drawn: SamplingStopped
-  std::function<void(const World&)> started;  ///< told once, when all starts are in the world
+  std::function<void(const World&)> started;  ///< called once, when all starts are in the world
   /// Index: which start is drawn, also of the run that is resumed. None: it is not known any more.
   std::optional<std::uint64_t> trajectory = 0;
   /// Under forces: costs up to three times the run from its start (ensemble/state_error.hpp).

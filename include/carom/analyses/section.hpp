@@ -59,7 +59,7 @@ struct Fields<SectionResult> {
             &R::digest)};
 };
 
-/// How many trajectories System::section stands for.
+/// How many trajectories System::section asks for.
 std::uint64_t section_orbits(const System&);
 
 /// Follows trajectories 0 … section_orbits - 1 until each has its points, or until t_max. The same

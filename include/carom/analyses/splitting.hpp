@@ -44,7 +44,7 @@ struct SplittingPlan {
   /// Deviations go along, and are copied with their trajectories; by hits only. At each level their
   /// growth is averaged with the weights e^(tilt t) of trajectories that come there at t.
   struct Deviations {
-    double unit_length = 1.0;  ///< as of EngineOptions
+    double unit_length = 1.0;  ///< as in EngineOptions
     double tilt = 0.0;
   };
   std::optional<Deviations> deviations = {};
@@ -74,7 +74,7 @@ struct CopiesOfStage {
 /// Trajectories at a level, by SplittingPlan::deviations.
 struct GrowthAtLevel {
   std::uint64_t number = 0;
-  double log_share = 0.0;           ///< ln of the share of all starts that they stand for
+  double log_share = 0.0;           ///< ln of the share of all starts that they represent
   double log_weight = 0.0;          ///< ln of their mean weight
   double time = 0.0, growth = 0.0;  ///< means of the time and of ln|deviation|
   double time_variance = 0.0, covariance = 0.0;
@@ -138,7 +138,7 @@ struct Extrapolated {
   double low() const;
   double high() const;
 };
-/// Share still there at a report time, or not gone within so many hits.
+/// Share still there at a report time, or after a number of hits.
 struct SplitPoint {
   double at = 0.0;
   Extrapolated p;
@@ -154,7 +154,7 @@ struct SplitRate {
 /// survival at a report is wrong by this share of it at the smallest kick, as far as the stage
 /// after each kick tells; the error is that of the mean over repetitions.
 Mean cost_of_kicks(const SplittingResult&, std::size_t report);
-/// The same of populations at any one kick, through so many stages.
+/// The same of populations at any one kick, through this many stages.
 Mean cost_of_kicks(const std::vector<PopulationRun>&, std::size_t stages);
 /// Is that more than chance? Chance alone is likely with 5 % and certain with 0.2 %.
 bool is_likely(const Mean& cost, std::size_t repetitions);

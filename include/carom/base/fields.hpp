@@ -1,4 +1,4 @@
-// What results hold, described once. Beside a struct stands the list of its fields: archives, JSON,
+// What results hold, described once. Beside a struct is the list of its fields: archives, JSON,
 // rows in Python and the tables of the guide are made from it.
 #pragma once
 

@@ -81,7 +81,7 @@ struct CertifiedTask {
   std::optional<ExactNumber> t_max;  ///< last time
   int digits = 20;                   ///< absolute error below 10^-digits in t, x, y, vx, vy
   long most_bits = 4'000'000;        ///< the precision beyond which an orbit is given up
-  long most_bits_a_doubt = 1 << 14;  ///< beyond what the orbit loses, spent on telling one event
+  long most_bits_a_doubt = 1 << 14;  ///< beyond what the orbit loses, spent on deciding one event
 };
 
 inline constexpr std::uint64_t most_digits = 1'000'000;

@@ -58,8 +58,8 @@ struct TrajectoryEnd {
   std::uint64_t contacts = 0;  ///< of hard discs
 };
 
-/// What an analysis is told: of one trajectory in the order of events, of several in any order.
-/// Trajectories that are under way when the engine is stopped have no end.
+/// Calls that an analysis gets: for one trajectory in the order of events, for several in any
+/// order. Trajectories that are under way when the engine is stopped have no end.
 class Listener {
  public:
   virtual ~Listener() = default;
@@ -117,15 +117,15 @@ class DrawnStarts : public Starts {
 struct EngineOptions {
   double t_end = 0.0;
   std::vector<double> times = {};  ///< of samples, increasing, up to t_end
-  bool hits = false;               ///< are hits told?
-  /// Times, increasing, at which the lengths of deviations are told, and the length in which they
+  bool hits = false;               ///< does it want hits?
+  /// Times, increasing, at which it gets the lengths of deviations, and the length in which they
   /// are measured beside velocities over the speed; none: no deviations are followed.
   std::vector<double> deviations = {};
   double unit_length = 1.0;
   /// As many deviations as phase space has dimensions, orthogonal to each other: of all particles
   /// together where they act on each other, else of each.
   bool frame = false;
-  const Surface* surface = nullptr;       ///< crossings of it are told
+  const Surface* surface = nullptr;       ///< it gets the crossings of this
   std::size_t most_crossings = SIZE_MAX;  ///< of one flight
   bool energy = false;                    ///< as World::watch_energy
   DecisionOptions decisions = {};

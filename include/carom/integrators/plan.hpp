@@ -18,7 +18,7 @@ struct IntegratorPlan {
   /// unresolved = "halve": a step that fails is taken in parts, each half as long as the one that
   /// failed, or a quarter, ...
   bool halve_unresolved = false;
-  /// Where steps are halved, they must resolve the forces as if they were so many times as long.
+  /// Where steps are halved, they must resolve the forces as if they were this many times as long.
   double resolution_margin = 1.0;
   double energy_tolerance =
       1e-3;  ///< largest change of the energy over the largest kinetic energy that is accepted

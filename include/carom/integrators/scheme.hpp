@@ -32,7 +32,7 @@ struct Scheme {
   int order;
   Form form;
   Motion first;                         ///< listed, symmetric: what the step begins with
-  Motion middle;                        ///< symmetric: what stands alone in the middle
+  Motion middle;                        ///< symmetric: what is alone in the middle
   std::vector<std::string_view> drift;  ///< listed, symmetric
   std::vector<std::string_view> kick;
   std::vector<std::string_view> weight;  ///< verlets, he

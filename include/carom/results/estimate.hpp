@@ -11,7 +11,7 @@ struct Estimate {
 /// Report times t with from <= t <= to.
 struct TimeWindow {
   double from = 0.0, to = 0.0;
-  /// A time of a grid may miss the round number it stands for by its rounding.
+  /// A time of a grid may differ from the intended round number by its rounding.
   bool holds(double t) const { return t > 0.0 && t >= from * (1 - 1e-9) && t <= to * (1 + 1e-9); }
 };
 

@@ -22,7 +22,7 @@ namespace {
 /// first one computes the bounds of forces that the others only look up.
 constexpr double enough_seconds = 4e-3, long_enough = 0.1;
 constexpr int fewest_repetitions = 3, most_repetitions = 16;
-/// Means over so many parts of the run are independent except for oscillations that last longer.
+/// Means over this many parts of the run are independent except for oscillations that last longer.
 constexpr int blocks = 8;
 
 class HitList : public Observer {

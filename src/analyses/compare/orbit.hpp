@@ -36,7 +36,7 @@ struct ErrorUnits {
 /// A flight to a wall is rounded by some units: of the hit's place, the time and the velocity.
 inline constexpr double rounding_of_flight = 0x1p-50;
 
-/// A run is looked at so many times: energies at each, states at every fourth, and of these the
+/// A run is looked at this many times: energies at each, states at every fourth, and of these the
 /// last eight are compared.
 inline constexpr int looks = 64, looks_between_states = 4, states_compared = 8;
 

@@ -9,7 +9,7 @@ namespace carom::analyses {
 
 namespace {
 
-/// An error counts where it is so many times what rounding may have made of it: the slope between
+/// An error counts where it is this many times what rounding may have made of it: the slope between
 /// two steps then errs by less than 2/(ln 2 * 16), a sixth.
 constexpr double above_noise = 16.0;
 constexpr std::size_t fewest_steps = 3;

@@ -49,7 +49,7 @@ class PreciseMotion {
   ~PreciseMotion();
 
   PrecisePlace start() const;
-  /// Follows `from` until t with so many equal steps in each of the parts of that time. Nothing
+  /// Follows `from` until t with this many equal steps in each of the parts of that time. Nothing
   /// where other walls are hit than `expected` (particles and walls in their order), where a hit
   /// grazes to rounding, where a particle is found outside, and where a force has no value.
   std::optional<PrecisePath> follow(const PrecisePlace& from, const Quad& t, int steps_a_part,

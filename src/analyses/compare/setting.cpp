@@ -20,7 +20,7 @@ namespace {
 /// Neighbouring orbits may separate by so much: their errors are then still in proportion to what
 /// schemes do in a step.
 constexpr double most_growth = 100.0;
-/// The comparison lasts as long as so many of the steps that would be chosen, at most.
+/// The comparison lasts as long as this many of the steps that would be chosen, at most.
 constexpr int most_steps = 1024, steps_between_looks = 4;
 /// An orbit that ends is compared until shortly before.
 constexpr double share_of_ending = 0.95;
@@ -34,7 +34,7 @@ constexpr int longer_steps = 6, most_halvings = 12;
 constexpr double margin = 2.0;
 /// Changes fall by 2^8 where the order counts; by half of that twice running, it is seen.
 constexpr double falls = 0x1p7;
-/// A change that grows again is that of rounding only if it is within so many times of it.
+/// A change that grows again is that of rounding only if it is at most this many times as large.
 constexpr double near_rounding = 64.0;
 
 double first_step(const Runs& runs, double size, double speed) {

@@ -21,7 +21,7 @@ struct Setting {
   double rounding_error = 0.0;         ///< of the reference scheme in doubles
   double reference_evaluations = 0.0;  ///< its own; 0: exact flights
 
-  /// What rounding may have made of an orbit's error with so many evaluations of forces.
+  /// What rounding may have made of an orbit's error with this many evaluations of forces.
   double rounding(double evaluations) const;
   /// Errors below this are those of rounding and of the reference, whose error is that of its
   /// rounding; roundings add up like the square root of their number.

@@ -228,7 +228,7 @@ std::optional<DiffusionFit> DisplacementMoments::fit(const TimeWindow& window) c
     inside.push_back(k);
     t.push_back(times_[k]);
     log_t.push_back(elementary::log(times_[k]));
-    // A single trajectory has no variance: weights as of a Gaussian displacement.
+    // A single trajectory has no variance: weights as for a Gaussian displacement.
     const double spread = variance > 0 ? variance : square * square;
     weight.push_back(1 / spread);
     log_weight.push_back(square * square / spread);

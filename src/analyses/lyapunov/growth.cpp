@@ -317,7 +317,7 @@ Interval wilson(double k, double n) {
   return {centre - half, centre + half};
 }
 
-// A run that tells a share is so many waiting times long.
+// A run that shows a share is this many waiting times long.
 constexpr double waiting_times = 3.0;
 
 // The share that is chaotic, with those that have not shown yet: they stick to islands or between

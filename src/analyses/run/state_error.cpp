@@ -27,7 +27,7 @@ constexpr double separated = 0.1;
 /// The distance leaves out a quarter of the error at order 2, and more where the steps are too long
 /// for their order. With a tolerance the error falls less regularly.
 constexpr double margin = 2.0, margin_of_adaptive = 3.0;
-/// At one look a distance may happen to be small: the largest of so many is taken.
+/// At one look a distance may happen to be small: the largest of this many is taken.
 constexpr int latest = 8;
 /// Both runs are rounded, by a few units a step: what they have in common of it is not seen in
 /// their distance.

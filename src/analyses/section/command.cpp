@@ -34,7 +34,7 @@ SystemOverrides section_overrides(const Options& options) {
 }
 
 // Every hit is a point: orbits that are asked for a number of points have no last time. On one
-// wall, on a line or at a velocity they may never have so many. Where the section is taken the
+// wall, on a line or at a velocity they may never have that many. Where the section is taken the
 // command line or the file says.
 LoadedSystem load_section(const Options& options) {
   SystemOverrides overrides = section_overrides(options);

@@ -19,7 +19,7 @@ Doubts doubts_of(const SplittingResult&);
 /// What else a reader has to know before the result, a line each.
 std::vector<std::string> notes_of(const SplittingResult&);
 files::Json splitting_json(const System&, const SplittingResult&);
-/// `verbose`: with the digest; `rows`: at most so many times in a table.
+/// `verbose`: with the digest; `rows`: at most this many times in a table.
 std::string splitting_text(const System&, const SplittingResult&, bool verbose = false,
                            std::size_t rows = 12);
 

@@ -289,7 +289,7 @@ void Population::count(const Stage& stage, std::size_t number) {
   result_.growth.push_back(growth_of_survivors());
 }
 
-/// Fills the population again: as many copies of each survivor as of any other, by a comb with one
+/// Fills the population again: the same number of copies of each survivor, by a comb with one
 /// random offset, so that the mean number of copies is exact. All copies have the same share.
 void Population::copy_survivors(const Stage& stage) {
   copies_.clear();

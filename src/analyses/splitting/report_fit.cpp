@@ -52,7 +52,7 @@ std::string split_fit_text(const SplitFit& fit, const char* variable) {
     return "\n" + folded(fmt::format("No decay was fitted: {}.", fit.why_none)) + "\n";
   std::string text =
       fmt::format("\nDecay from {} = {:.6g} to {:.6g}\n", variable, fit.from, fit.to);
-  // A law that does not describe the window is not told apart from one that does so even less.
+  // A law that does not describe the window is not compared with one that does so even less.
   const bool refuted = fit.decays.front().p_value < hardly;
   const std::size_t shown = fit.decided || refuted ? 1 : fit.decays.size();
   if (!fit.decided && !refuted) text += not_told_apart;

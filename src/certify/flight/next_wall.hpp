@@ -1,5 +1,5 @@
-// Which wall does a straight flight meet first? By signs in any arithmetic; what cannot be told is
-// said.
+// Which wall does a straight flight meet first? By signs in any arithmetic; what cannot be decided
+// is said.
 #pragma once
 
 #include <algorithm>
@@ -110,7 +110,7 @@ Meeting<N> meets(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v,
   return standing ? Meeting<N>{} : meets_segment(w, P, v);
 }
 
-/// The first of several meetings, or the two that cannot be told apart.
+/// The first of several meetings, or the two whose order is undecided.
 template <class N, class Key>
 class First {
  public:

@@ -23,7 +23,7 @@ struct Choice {
   enum Answer : unsigned char {
     wall,       ///< `first`
     nothing,    ///< no wall follows, ever
-    undecided,  ///< `first` and `second` could not be told apart, or whether `first` is met
+    undecided,  ///< `first` and `second` could not be ordered, or whether `first` is met
     too_far,    ///< no wall within the longest flight that is followed; `first` may have been met
     last_time   ///< comes before all walls
   } answer = nothing;  // undecided without a `first`: the enclosure is too wide to look for walls

@@ -1,5 +1,5 @@
 // The table as it was written, at any precision: every number of the system file is enclosed anew,
-// so that "0.1" is one tenth and "sqrt(3)/2" is that. Walls stand in the order of the Table.
+// so that "0.1" is one tenth and "sqrt(3)/2" is that. Walls are in the order of the Table.
 #pragma once
 
 #include <optional>

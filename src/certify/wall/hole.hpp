@@ -84,7 +84,7 @@ std::vector<HoleOf<Ball>> ball_holes(const ExactSystem&, const std::vector<WallO
 /// The hole of a wall that a point of it lies in.
 struct Passage {
   Verdict verdict = Verdict::no;
-  int hole = -1;  ///< in Table::holes: the one that is passed, or could not be told
+  int hole = -1;  ///< in Table::holes: the one that is passed, or is undecided
 };
 template <class N>
 Passage passage(const std::vector<HoleOf<N>>& holes, int wall, const WallOf<N>& w,

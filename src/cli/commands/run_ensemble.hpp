@@ -93,7 +93,7 @@ void say_how_to_go_on(const Options& options, const EnsembleJob<Result>& job, st
                    options.command, job.output));
 }
 
-// Reports a result that was just computed. How to go on stands at the end, where it is seen; it is
+// Reports a result that was just computed. How to go on is said at the end, where it is seen; it is
 // said also if the report cannot be written.
 template <class Result>
 int report_and_say_how_to_go_on(const Options& options, const EnsembleJob<Result>& job,

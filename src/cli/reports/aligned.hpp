@@ -24,7 +24,7 @@ Rounding rounding_of(double size, double spread);
 /// "0.16993 +- 0.00031".
 std::string with_error(double value, double error);
 
-/// A share in per cent with so many digits, all of those before the point: "0.031", "12", "100".
+/// A share in per cent with this many digits, all of those before the point: "0.031", "12", "100".
 std::string in_percent(double share, int digits = 2);
 
 /// Times with six digits, or as many as tell them apart.

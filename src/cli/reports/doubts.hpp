@@ -31,7 +31,7 @@ Doubts doubts_of(const System&, std::uint64_t all, const char* what, const FateC
                  const Reports&, const EnergyError&);
 Doubts doubts_of(const System&, const SectionResult&);
 Doubts doubts_of(const System&, const SingleRunResult&);
-/// That so many trajectories failed.
+/// That this many trajectories failed.
 Doubts doubts_of_failures(std::uint64_t unresolved, std::uint64_t lost);
 /// "" or what is said of the energy.
 std::string energy_doubt(const System&, const EnergyError&);

@@ -61,7 +61,7 @@ class Contacts {
   /// Finds the first contact of i before its own next event and its check, and before the
   /// partner's: then the partner looks again.
   void predict(int i, const Time& now);
-  /// Makes the contact of i its partner's, if it is the partner's first. Then both stand in the
+  /// Makes the contact of i its partner's, if it is the partner's first. Then both are in the
   /// queue, and the order of simultaneous contacts does not depend on which disc found them.
   bool tell_partner(int i);
   /// All whose first contact is with i.

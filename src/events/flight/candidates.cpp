@@ -92,7 +92,7 @@ Sign PieceTable::first_exit(const Flight& f, int piece, const Origin& seen, doub
       ellipse_quartic(em, on_wall || beside ? dot(em, em) : 1.0, vm, jm, f.omega, 0.5);
   if (w.orientation > 0)
     for (double& x : q.q) x = -x;
-  // In the quartic that square stands as it is, times 2 n and times n^2, n = omega^2 / 4; .251 for
+  // In the quartic that square is as written, times 2 n and times n^2, n = omega^2 / 4; .251 for
   // a quarter is more than what is rounded here.
   if (beside) {
     const double n = 0.251 * f.omega * f.omega;

@@ -17,7 +17,7 @@ using base::at;
 }  // namespace
 
 /// A line leaves a convex region once: between a joint on its right and the next one on its left,
-/// or, with all joints on one side, through the arc that it stands on. -1: not decided.
+/// or, with all joints on one side, through the arc that it is on. -1: not decided.
 [[gnu::always_inline]] inline int HitFinder::exit_of_enclosure(const Flight& f, Vector origin,
                                                                const FlightScale& scale) const {
   const int n = t_.enclosure_size;

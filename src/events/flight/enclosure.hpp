@@ -21,7 +21,7 @@ class Enclosure {
   /// Adds the wall that starts at `from`; a bent one has no tangent.
   void add(geometry::Vector from, geometry::Vector tangent, double length, bool bent) {
     const std::size_t i = static_cast<std::size_t>(size_);
-    // A last wall without a neighbour stands there twice.
+    // A last wall without a neighbour is there twice.
     if (i % 2 == 0)
       walls_.push_back({{base::both(from.x), base::both(from.y)},
                         {base::both(tangent.x), base::both(tangent.y)},

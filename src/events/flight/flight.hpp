@@ -20,7 +20,7 @@ struct Flight {
   double square_speed = 1.0;
   geometry::Cell cell;  ///< the cell it is in, relative to the one of its start
   int entry = -1;       ///< edge (piece) through which it came into `cell`
-  // Set by PieceTable::begin and cross: the piece the particle stands on, as seen from `cell` (-1:
+  // Set by PieceTable::begin and cross: the piece that the particle is on, as seen from `cell` (-1:
   // none), and, at a joint, the piece that ends there.
   int start_piece = -1;
   int start_previous = -1;

@@ -100,7 +100,7 @@ int PieceTable::edge_crossed_at_start(const Flight& f) const {
   return -1;
 }
 
-/// The piece the particle stands on, seen from the flight's cell.
+/// The piece that the particle is on, seen from the flight's cell.
 void PieceTable::find_start(Flight& f) const {
   f.start_piece = f.wall;  // the pieces begin with the walls in their own cell
   f.start_previous = -1;

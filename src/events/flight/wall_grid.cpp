@@ -123,7 +123,7 @@ WallGrid::WallGrid(const std::vector<Piece>& pieces, Vector first, Vector second
   find_clearances();
 }
 
-/// Cuts the box into about so many cells and counts the entries of each.
+/// Cuts the box into about this many cells and counts the entries of each.
 WallGrid::Crowd WallGrid::cut(const std::vector<Reach>& reaches, const Box& within, double cells) {
   const double width = within.high.x - within.low.x, height = within.high.y - within.low.y;
   // Cells about as wide as high; a box without extent has one row or column.

@@ -189,7 +189,8 @@ void Barrier<Real>::meet(End end, const Barrier& other) {
   Real& zone = begins ? zone_from : zone_to;
   zone = way((turn - turn_error) / lengths - grows(other, reach), reach);
   if (sharp && !(zone > Real(0)) && !(turn < -turn_error))
-    zone = std::numeric_limits<Real>::infinity();  // a cusp, or too sharp to be told from one
+    zone =
+        std::numeric_limits<Real>::infinity();  // a cusp, or too sharp to be distinguished from one
   const Real here = reach_of_wall(joint);
   if (sharp)
     (begins ? thin_from : thin_to) = way(

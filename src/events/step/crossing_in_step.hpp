@@ -5,13 +5,13 @@
 // show that the gap keeps its sign, or only grows, there is no crossing; where it only falls, the
 // signs at the ends tell; where it is convex or concave, the knot of its minimum or maximum
 // decides. Otherwise the interval is halved by another knot of the path itself. So a path that
-// leaves and returns within a step is found, and a path that just fails to touch is told from one
-// that touches by the gap at its minimum, computed with the scheme's own partial step.
+// leaves and returns within a step is found, and a path that just fails to touch is distinguished
+// from one that touches by the gap at its minimum, computed with the scheme's own partial step.
 //
-// A particle that stands on a wall to rounding and moves outwards hits it at once: several hit
+// A particle that is on a wall to rounding and moves outwards hits it at once: several hit
 // theirs at the same time, or it is in a corner. One that falls beyond the wall without having
 // moved outwards or having come off it, both to rounding, moves along the wall. Parts of a path on
-// which the gap changes by no more than its rounding are told by their ends.
+// which the gap changes by no more than its rounding are decided by their ends.
 #pragma once
 
 #include <algorithm>

@@ -363,7 +363,7 @@ double Group::energy() {
 
 double Group::change_of_energy() {
   const double now = energy(), before = last_energy_.value_or(now);
-  // A sum that was interrupted is none: the change is told the next time.
+  // An interrupted sum is no sum: the change is seen the next time.
   if (in_.interrupt && in_.interrupt->stopped()) return 0.0;
   last_energy_ = now;
   return now - before;

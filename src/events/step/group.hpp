@@ -58,7 +58,7 @@ class Group final : public ForceLaw<double> {
     int member = -1;  ///< -1: the end of the step
     const Barrier<double>* barrier = nullptr;
     bool unresolved = false;  ///< the step does not resolve the forces, and is taken all the same
-    bool slides = false;      ///< it cannot be told from motion along that wall
+    bool slides = false;      ///< indistinguishable from motion along that wall
     std::string fault;        ///< why there is no path that walls can be found on; "": there is
     int outside = -1;  ///< then: this member alone has left the table; -1: it is the fault of all
     bool in_parts = false;  ///< it ends a part of a step alone, and the step goes on
@@ -219,7 +219,7 @@ class Group final : public ForceLaw<double> {
   bool whole_step_ = false;                     ///< the path under way ends at path_end_
   Time path_end_;                               ///< of the step
   double part_ = 0.0;      ///< ends of steps are its multiples: the plan's step, or a part of it
-  bool describes_ = true;  ///< a fault is told in words
+  bool describes_ = true;  ///< a fault is described in words
   std::unique_ptr<Stepper<double>> stepper_;
   std::unique_ptr<StepPath<double>> path_;
   std::vector<forces::ForceMap*> maps_;  ///< one a member

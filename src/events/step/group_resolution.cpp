@@ -231,7 +231,7 @@ std::string Group::check_resolution() {
 }
 
 std::string Group::describe_unresolved(const Phase<double>& at, double step, double radius) {
-  // What is counted, or halved, is not told.
+  // What is counted, or halved, is not reported.
   if (in_.plan.count_unresolved || !describes_) return "not resolved";
   const double shorter = step / radius * longest_step(at, radius);
   // The member that is to blame, where particles do not interact.

@@ -80,7 +80,7 @@ struct StepHull {
   }
 };
 
-/// Can the path not meet the barrier from its positive side, or from where it stands on it? Of
+/// Can the path not meet the barrier from its positive side, or from a start on it? Of
 /// lanes: a mask.
 template <class Number, class Real>
 CAROM_INLINE auto stays_off(const Barrier<Real>& b, const StepHull<Number>& hull) {

@@ -21,7 +21,7 @@ using hdf5::Handle;
 
 namespace {
 
-// A full disk may get room again; after so many checkpoints in a row that failed the run ends.
+// A full disk may get room again; after this many failed checkpoints in a row the run ends.
 constexpr int most_failures = 6;
 
 // The records of a piece are those of its trajectories, each once: what was read from the disk may

@@ -30,7 +30,7 @@ constexpr std::size_t most_waiting = (std::size_t{256} << 20) / record_size;
 static_assert(record_size % sizeof(std::uint64_t) == 0);
 constexpr std::uint64_t batch_size = (std::size_t{4} << 20) / record_size;
 
-// Goes on from the hash of what stands before: any changed word gives another one.
+// Goes on from the hash of what is before: any changed word gives another one.
 std::uint64_t hashed(std::uint64_t sum, const TrajectoryRecord* records, std::size_t count) {
   const char* from = reinterpret_cast<const char*>(records);
   for (std::size_t at = 0; at < count * record_size; at += sizeof(std::uint64_t)) {

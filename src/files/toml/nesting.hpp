@@ -19,7 +19,7 @@ inline constexpr std::size_t most_values = 6'000'000;
 
 /// Throws InputError, with line and column, where the text has more levels or more values.
 void check_nesting(std::string_view toml, const std::string& file);
-/// The same of a value that stands alone; the error has this place.
+/// The same for a value alone; the error has this place.
 void check_nesting_of_value(std::string_view value, const Place& place);
 
 }  // namespace carom::files

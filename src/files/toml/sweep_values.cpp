@@ -68,7 +68,7 @@ std::vector<std::string> linear(const ExactNumber& from, const ExactNumber& to,
   return values;
 }
 
-// The factor between neighbours where it is a short decimal, as of log:1:1000:4.
+// The factor between neighbours where it is a short decimal, as in log:1:1000:4.
 std::optional<std::string> exact_factor(const ExactNumber& from, const ExactNumber& to,
                                         std::uint64_t count) {
   constexpr std::uint64_t most_exact = 64;  // a higher power has more digits than a double can use

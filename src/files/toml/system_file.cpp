@@ -40,7 +40,7 @@ void check_sections(const Value& root) {
   }
 }
 
-// Sections that may be left out stand empty, in the order in which they are printed. Nothing is
+// Sections that may be left out are empty, in the order in which they are printed. Nothing is
 // added to the root afterwards, so that references into it stay valid.
 void complete_sections(Value& root) {
   Value ordered;

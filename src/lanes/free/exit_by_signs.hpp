@@ -1,4 +1,4 @@
-// Which piece a straight flight from another one meets first, told by the sides of all joints
+// Which piece a straight flight from another one meets first, decided by the sides of all joints
 // alone.
 //
 // The directed lines that have given joints on their left and the others on their right are a

@@ -21,7 +21,7 @@ struct LaneTrajectory {
   std::size_t reported = 0;      ///< times
   std::uint64_t told = 0;        ///< hits that were reported, if they are
   motion::FreeTangent tangent;   ///< where `start` is, if deviations are followed
-  std::size_t marked = 0;        ///< times at which their lengths were told
+  std::size_t marked = 0;        ///< times at which their lengths were reported
 
   int last_wall() const { return start.hits > first_hits ? start.state.wall : -1; }
 };

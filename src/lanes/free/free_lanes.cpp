@@ -32,7 +32,7 @@ namespace {
 
 // Hits are counted in doubles.
 constexpr std::uint64_t most_hits = std::uint64_t{1} << 53;
-// After so many the cells of hits, a signed byte each, are taken out of 32 bits.
+// After this many the cells of hits, a signed byte each, are taken out of 32 bits.
 constexpr std::uint64_t most_sweeps = std::uint64_t{1} << 23;
 
 /// Flights along circles get no farther than the diameter; straight ones as far as you like.
@@ -315,7 +315,7 @@ class FreeLanes::Implementation {
       report(mine, state, survives ? last : there, survives);
       lanes.pack.until[lane] = until(lanes, lane);
       // A first flight that ends when the run does must not be flown by the kernel of particles
-      // that stand on walls.
+      // that are on walls.
       if (&lanes == &main && call == Call::over && !survives && mine.reported > before) {
         // On a lattice a particle that began off the discs must find its first one again.
         if (lanes.pack.hits(lane) == static_cast<double>(mine.start.hits))

@@ -79,7 +79,7 @@ struct LaneTable {
                                            ///< 2^most_signs: as many as there are words of 16 bits
   unsigned char exit[entries] = {};
 
-  // Which discs a flight may meet next that stands on a disc, or passes it (next_disc_table.hpp);
+  // Which discs a flight may meet next that starts on a disc, or passes it (next_disc_table.hpp);
   // by its direction and by the side of that disc's centre. Four signed bytes, counted from that
   // disc: the cell of the disc that it meets if it cuts it, and else of the one that it then meets
   // or passes. Null: there is no table.

@@ -46,7 +46,7 @@ struct Seen {
   const Disc* then;
 };
 
-/// Flights of unit speed that stand on a disc, or pass it: directions from `from` to `to`, v x
+/// Flights of unit speed that start on a disc, or pass it: directions from `from` to `to`, v x
 /// (centre - start) between two offsets.
 struct Flights {
   Vector from, to;

@@ -1,4 +1,4 @@
-// Which disc of a lattice a flight meets that stands on another one, or passes it: a table by its
+// Which disc of a lattice a flight meets that starts on another one, or passes it: a table by its
 // direction and its offset, how far to the side of that disc's centre it goes.
 //
 // The table is made by asking, of all flights of an entry at once, which discs they can cut, in

@@ -23,7 +23,7 @@ void ScalarEvent::fly(const LaneStart& start, std::vector<double> times, std::ui
   world_.run_until(t_end, seen_, stopped);
 }
 
-/// Where the exit of a flight is told by the sides of joints: the entry for it.
+/// Where the exit of a flight is decided by the sides of joints: the entry for it.
 int ScalarEvent::entry_at(const LaneStart& start) const {
   const State& s = start.state;
   if (!pieces_.by_signs || turn_ != Turn::straight || s.wall < 0) return -1;

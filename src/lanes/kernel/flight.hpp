@@ -69,8 +69,8 @@ CAROM_INLINE Real number_of(const double* numbers, const Real& piece) {
   return look_up<kind.reach>(numbers, piece);
 }
 
-/// Of what is it asked whether a flight stands on it? Larmor circles among ellipses ask it of the
-/// curve.
+/// For which curves is it asked whether a flight starts on them? Larmor circles among ellipses ask
+/// it of the curve.
 template <Kind kind>
 CAROM_INLINE const double* wall_numbers(const LaneTable& t) {
   return kind.larmor && kind.ellipses ? t.ellipses.curve : t.wall;

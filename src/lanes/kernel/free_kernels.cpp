@@ -5,7 +5,7 @@
 namespace carom::lanes {
 namespace {
 
-/// Any bounded table or the open plane; `convex`: of particles that stand on its walls.
+/// Any bounded table or the open plane; `convex`: for particles on its walls.
 template <bool larmor, bool convex>
 Advance kernel_of(const LaneTable& t) {
   constexpr Kind any{.larmor = larmor, .convex = convex, .segments = true, .circles = true};

@@ -176,7 +176,7 @@ class EarliestOnCircle {
     where(better, piece_) = Real(counted[i]);
     of_root_ = of_root_ && !better;
   }
-  /// A root as it stands, which errs by less than `spread`.
+  /// A root as computed, which errs by less than `spread`.
   CAROM_INLINE void add_root(int i, const Mask& leaves, const Real& kappa, const Real& spread) {
     const Real size(f_.table.size), far = abs(kappa);
     const Real q = choose(far * size <= f_.pace, size, f_.pace / far), p = kappa * q;

@@ -88,7 +88,7 @@ class SoftEngine {
                  const Sample& sample = {});
 
   // What lanes do for a track, counted as a World would.
-  /// It has left its lane after so many steps there, the last of which was tried only if `tried`.
+  /// It has left its lane after this many steps there, the last of which was tried only if `tried`.
   void count_lane(SoftTrack& track, std::uint64_t steps, bool tried, double fastest) const;
   void count_sample(SoftTrack& track) const { track.counts.force_evaluations += sample_cost_; }
   /// The force at the start of its next step was evaluated anew: a lane has begun, or its particle

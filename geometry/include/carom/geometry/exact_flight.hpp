@@ -77,7 +77,7 @@ class ExactFlight {
   };
   /// `entry`: the edge through which the flight came into this cell, or -1. Exits through edges
   /// before that crossing do not count. `start` tells which piece of the list, if any, is the one
-  /// the particle stands on, and `start_previous` the one that ends there if it stands on a joint.
+  /// the particle is on, and `start_previous` the one that ends there if it is on a joint.
   First first(const std::vector<int>& pieces, Cell cell, int entry, int start,
               int start_previous) const;
 

@@ -6,7 +6,7 @@
 // While t runs over one turn kappa falls from +infinity through 0 (half a turn) to -infinity, so
 // hits are ordered by falling kappa; without field only kappa > 0 lies ahead. A wall is F(x) = 0
 // with F > 0 on the domain's side; F(x) N is a polynomial in kappa whose leading coefficient is
-// F(P), which vanishes for the wall that the particle stands on: the known root is removed by
+// F(P), which vanishes for the wall that the particle is on: the known root is removed by
 // algebra. The particle leaves the domain where F falls in time, that is where dF/dkappa > 0.
 //
 // A formula here never chooses: it maps numbers to numbers by + - * / and sqrt. Error bounds are in

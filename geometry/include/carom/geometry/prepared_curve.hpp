@@ -53,7 +53,7 @@ struct PreparedCurve {
   explicit PreparedCurve(const Curve& curve);
 
   /// A conic so thin, or so small beside the flights that come to it, that a point put back on it
-  /// would be another one: hits are told by the parameter, and the normal is taken from that.
+  /// would be another one: hits are identified by the parameter, and the normal is taken from that.
   /// docs/physics/exactness.md, Thin walls.
   bool thin() const { return landing == LandingKind::thin; }
   void make_thin();

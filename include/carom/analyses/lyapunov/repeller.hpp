@@ -53,7 +53,7 @@ struct Fields<RepellerExponent> {
           [](auto& r) -> auto& { return r.per_time.repetitions; })};
 };
 
-/// Can a particle leave this system, and is it one that is free?
+/// Is this system of a free particle, and can it leave?
 bool is_open(const System&);
 /// How many trajectories populations take at least.
 std::uint64_t least_of_repeller();
