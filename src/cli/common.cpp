@@ -37,9 +37,18 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 std::atomic<std::int64_t> first_signal{0};
 static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 
+// While a system is read no loop looks at the flag: a signal ends the program. A sweep has what it
+// has finished on the disk by then, and goes on with it.
+std::atomic<bool> reading{false};
+
 // timeout and mpirun send a signal to the process and then to its group: the second one, at once,
 // does not ask for an end without delay.
-extern "C" void on_interrupt(int) {
+extern "C" void on_interrupt(int number) {
+  if (reading) {
+    std::signal(number, SIG_DFL);
+    std::raise(number);  // when this function has returned
+    return;
+  }
   constexpr std::int64_t patience = 500'000'000;  // ns
   timespec time{};
   clock_gettime(CLOCK_MONOTONIC, &time);
@@ -153,7 +162,18 @@ void follow_links(Options& options) {
   for (std::string& name : options.files) name = followed(name);
 }
 
+namespace {
+
+struct Reading {
+  Reading() { reading = true; }
+  Reading(const Reading&) = delete;
+  ~Reading() { reading = false; }
+};
+
+}  // namespace
+
 LoadedSystem load(const Options& options, const SystemOverrides& overrides) {
+  const Reading until_read;
   // Equilibria are found without any step, and trial runs for one may take minutes.
   SystemOverrides with = options.of_sweep ? SystemOverrides() : overrides;
   with.choose_step = options.command != "relax" && options.command != "table";

@@ -47,5 +47,23 @@ TEST(Signals, TheSoftLimitOfProcessorTimeInterrupts) {
   EXPECT_TRUE(shell.exists("run.h5"));
 }
 
+// A table of forces takes a while, in which nothing asks whether to stop. The values before are on
+// the disk.
+TEST(Signals, EndASweepWhileItReadsASystem) {
+  const Shell shell;
+  shell(
+      "cat > broad.toml <<'END'\n[lattice]\nvectors = [[1, 0], [0, 1]]\n[[potential]]\nkind = "
+      "\"fermi\"\nheight = 1\nradius = 0.25\nsoftness = 0.8\nlattice = true\n[particles]\nenergy = "
+      "100\n[integrator]\nstep = 0.01\n[initial]\nkind = \"uniform\"\nEND\n");
+  const Outcome o = shell(
+      "$carom escape ./broad.toml --sweep run.seed=list:1,2 --t-max 0.1 --trajectories 2 -o s.h5 & "
+      "pid=$!; until_listening; sleep 0.1; kill -TERM $pid; wait $pid");
+  EXPECT_EQ(o.status, 128 + 15) << o.err;
+  EXPECT_FALSE(shell.exists("s.h5"));
+  const Outcome again = shell("$carom escape --resume s.h5 --json");
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(json_value(again.out, "status"), "\"completed\"");
+}
+
 }  // namespace
 }  // namespace carom
