@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Makes what runs without a compiler and without any of the libraries: from a build (with CAROM_BUILD_PYTHON), a
-# tarball of the program for any Linux, with its libraries, the C library and the loader; and a Python wheel.
+# tarball of the program for any Linux, with its libraries, the C library and the loader; and a Python wheel. Of a cross
+# build (cmake/aarch64.cmake), the tarball alone.
 #   cmake/bundle.sh BUILD TARGET      packages land in the folder TARGET
 set -euo pipefail
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -8,23 +9,41 @@ build=$(realpath "$1")
 target=$(realpath -m "$2")
 version=$(sed -n 's/^project(carom VERSION \([^ ]*\).*/\1/p' "$source/CMakeLists.txt")
 machine=$(uname -m)
+tools=
+root=$(sed -n 's/^CAROM_ROOT:[A-Z]*=//p' "$build/CMakeCache.txt")
+if [[ -n $root ]]; then
+  machine=aarch64
+  tools=$machine-linux-gnu-
+fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$target"
 
+# What the loader says that a program is loaded with.
+loaded_with() {
+  if [[ -z $root ]]; then ldd "$1"; else qemu-aarch64-static -L "$root" "$root/lib/ld-linux-aarch64.so.1" --list "$1"; fi
+}
+
+# A file of this system, or of the one that is built for.
+where_is() { if [[ -e $root$1 ]]; then echo "$root$1"; else echo "$1"; fi; }
+
 # Shared libraries of a program, one path a line; without the kernel's and the loader.
-libraries_of() { ldd "$1" | sed -n 's/.*=> \(\/[^ ]*\) .*/\1/p'; }
+libraries_of() {
+  local library
+  loaded_with "$1" | sed -n 's/.*=> \(\/[^ ]*\) .*/\1/p' | grep -v '/ld-linux' |
+    while read -r library; do where_is "$library"; done
+}
 
 # HDF5 of Debian can read archives in the cloud, which takes thirty libraries with it. Carom never does: what HDF5
 # asks of two of them is answered by functions that refuse.
 no_cloud() {
   local hdf5=$1 folder=$2 library names
   for library in libcurl.so.4:CURL_OPENSSL_4 libcrypto.so.3:OPENSSL_3.0.0; do
-    names=$(nm -D --undefined-only "$hdf5" | sed -n "s/.* U \(.*\)@${library#*:}\$/\1/p")
+    names=$("${tools}nm" -D --undefined-only "$hdf5" | sed -n "s/.* U \(.*\)@${library#*:}\$/\1/p")
     [[ -n $names ]] || continue
     printf 'void* %s(void) { return 0; }\n' $names >"$work/none.c"
     printf '%s { global: *; };\n' "${library#*:}" >"$work/none.map"
-    gcc -shared -fPIC -O2 -fno-builtin -w -Wl,-soname,"${library%:*}" -Wl,--version-script="$work/none.map" \
+    "${tools}gcc" -shared -fPIC -O2 -fno-builtin -w -Wl,-soname,"${library%:*}" -Wl,--version-script="$work/none.map" \
       "$work/none.c" -o "$folder/${library%:*}"
   done
 }
@@ -41,7 +60,7 @@ collect() {
     name=$(basename "$library")
     [[ -e $folder/$name || " $* " == *" $name "* ]] && continue
     cp -L "$library" "$folder/$name"
-    strip --strip-unneeded "$folder/$name"
+    "${tools}strip" --strip-unneeded "$folder/$name"
   done
 }
 
@@ -52,7 +71,7 @@ licences() {
   mkdir -p "$folder/licences"
   for library in $(ls "$folder" | grep -vE "libc(url|rypto)\.") "$@"; do
     package=$(dpkg-query -S "*/$(gcc -print-multiarch)/$library" 2>/dev/null | sed -n '1s/:.*//p') || true
-    [[ -z $package ]] || cp -L "/usr/share/doc/$package/copyright" "$folder/licences/$package"
+    [[ -z $package ]] || cp -L "$root/usr/share/doc/$package/copyright" "$folder/licences/$package"
   done
 }
 
@@ -60,10 +79,10 @@ tarball() {
   local name=carom-$version-$machine-linux folder loader
   folder=$work/$name
   collect "$build/carom" "$folder/lib"
-  loader=$(ldd "$build/carom" | sed -n 's/^[[:space:]]*\(\/[^ ]*ld-[^ ]*\) .*/\1/p')
-  cp -L "$loader" "$folder/lib/"
+  loader=$(loaded_with "$build/carom" | sed -n 's/.* => //; s/^[[:space:]]*\(\/[^ ]*ld-[^ ]*\) .*/\1/p')
+  cp -L "$(where_is "$loader")" "$folder/lib/"
   cp "$build/carom" "$folder/lib/carom"
-  strip "$folder/lib/carom"
+  "${tools}strip" "$folder/lib/carom"
   cat >"$folder/carom" <<LAUNCHER
 #!/bin/sh
 # Starts lib/carom with the C library and the libraries beside it.
@@ -116,5 +135,5 @@ wheel() {
 case ${3-both} in
   tarball) tarball ;;
   wheel) wheel ;;
-  *) tarball; wheel ;;
+  *) tarball; [[ -n $root ]] || wheel ;;
 esac

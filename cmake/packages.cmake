@@ -3,11 +3,14 @@ find_package(CGAL 5.5 REQUIRED)
 find_package(HDF5 1.10.5 REQUIRED COMPONENTS C)
 add_compile_definitions(H5_USE_110_API)  # in 1.12 and later functions and structs have other forms
 find_package(fmt 9 REQUIRED)
-# With -stdlib=libc++ on Linux, whose packages are made with GCC's library of C++, fmt's and GoogleTest's cannot be linked.
+# With -stdlib=libc++ on Linux, whose packages are made with GCC's library of C++, those of fmt, toml++ and GoogleTest
+# cannot be linked: their headers hold all, and GoogleTest is compiled.
 set(CAROM_FMT fmt::fmt)
+set(CAROM_TOML tomlplusplus::tomlplusplus)
 if(CMAKE_CXX_FLAGS MATCHES "-stdlib=libc[+][+]" AND NOT APPLE)
   set(CAROM_FOREIGN_LIBRARY ON)
   set(CAROM_FMT fmt::fmt-header-only)
+  set(CAROM_TOML)
   add_compile_definitions(_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION)  # for Boost before 1.81
 endif()
 find_path(FAST_FLOAT_INCLUDE_DIR fast_float/fast_float.h)  # for libraries of C++ that read no doubles: libc++ before 20

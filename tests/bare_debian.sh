@@ -7,7 +7,9 @@ case $debian in
   *) die "no such Debian: $debian; 12 or 13" ;;
 esac
 
-make_debian() {
+# Sets mirror, and sources: one line "URI suite component" for each place where this machine gets Debian from. Makes the
+# folder that holds FOLDER.
+find_mirror() {
   [[ $EUID -eq 0 ]] || die "needs root"
   [[ ! -e $folder ]] || die "$folder exists"
   if ! command -v debootstrap >/dev/null; then
@@ -16,8 +18,7 @@ make_debian() {
       { apt-get update && apt-get install -y --no-install-recommends debootstrap; }; } </dev/null >&2
   fi
 
-  # Where this machine gets Debian from: one line "URI suite component" for each source.
-  local sources mirror include= file here
+  local here
   here=$(. /etc/os-release && echo "${VERSION_CODENAME-}")
   mapfile -t sources < <(apt-get indextargets --format '$(REPO_URI) $(RELEASE) $(COMPONENT)' \
     'Created-By: Packages' 'Origin: Debian' |
@@ -29,7 +30,11 @@ make_debian() {
 
   mkdir -p "$(dirname "$folder")"
   [[ -n $keep ]] || trap 'rm -rf --one-file-system "$folder"' EXIT
+}
 
+make_debian() {
+  local include= file
+  find_mirror
   say "making a minimal Debian in $folder"
   [[ $mirror == https:* ]] && include=--include=ca-certificates
   debootstrap --variant=minbase $include "$release" "$folder" "$mirror" >"$folder.log" 2>&1 ||

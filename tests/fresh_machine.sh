@@ -1,14 +1,17 @@
 #!/usr/bin/env bash
 # The proof of the fresh machine: a minimal Debian in a folder, the tracked files copied into it,
-# and there the two commands of the README; or the packages of ./dev release. Needs root.
+# and there the two commands of the README; or the packages of ./dev release; or another compiler, another machine. Needs root.
 set -euo pipefail
 
 usage() {
   cat <<'END'
-./dev bare [--debian 12|13] [--no-test | --release | --packages] [--keep] [FOLDER]
+./dev bare [--debian 12|13] [--libcxx | --arch arm64 | --release | --packages] [--no-test] [--keep] [FOLDER]
   FOLDER      where the small Debian is made (default: build/bare); it must not exist
   --debian    12 (default) or 13
-  --no-test   only ./dev run escape magnetic-square
+  --libcxx    built by clang with libc++, as on a Mac
+  --arch arm64  built for 64-bit ARM, run by qemu-user: digests compared with those of build/release, carom validate,
+              the tests and the Python module (hours; Debian 12)
+  --no-test   only ./dev run escape magnetic-square; with --libcxx and --arch no tests
   --release   run ./dev release there, of what is committed: its Debian packages and its wheel land in build/packages
   --packages  install each package of ./dev release, use it, remove it: nothing may be left
   --keep      leave the folder for a look around
@@ -20,6 +23,7 @@ limit=360
 folder=$root/build/bare
 what=tests
 debian=12
+other=
 keep=
 while [[ $# -gt 0 ]]; do
   case $1 in
@@ -27,6 +31,11 @@ while [[ $# -gt 0 ]]; do
     --no-test) what=run ;;
     --release) what=release ;;
     --packages) what=packages ;;
+    --libcxx) other=libcxx ;;
+    --arch)
+      [[ ${2-} == arm64 ]] || { usage >&2; exit 2; }
+      other=arm
+      shift ;;
     --keep) keep=yes ;;
     -h | --help) usage; exit ;;
     -*) usage >&2; exit 2 ;;
@@ -43,6 +52,10 @@ if [[ $what == packages ]]; then
   . "$root/tests/packages.sh"
   exit
 fi
+if [[ $other == arm ]]; then
+  . "$root/tests/bare_arm.sh"
+  exit
+fi
 make_debian
 if [[ $what == release ]]; then
   rmdir "$folder/carom"
@@ -54,6 +67,10 @@ if [[ $what == release ]]; then
 fi
 git -C "$root" ls-files -z | (cd "$root" && xargs -0 cp --parents -t "$folder/carom")
 
+if [[ $other == libcxx ]]; then
+  . "$root/tests/bare_libcxx.sh"
+  exit
+fi
 begin=$SECONDS
 say "./dev run escape magnetic-square"
 inside ./dev run escape magnetic-square </dev/null | tee "$folder/first_result"

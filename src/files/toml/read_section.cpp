@@ -47,7 +47,6 @@ Surface line_of(Surface::Kind kind, const std::string& text, const Place& place)
 void read_on(const Value& value, const Table& table, SectionPlan& plan) {
   const std::string& text = as_text(value);
   const Place& place = value.place;
-  using Kind = Surface::Kind;
   if (text == "boundary") return;
   if (text.starts_with("wall:")) {
     plan.wall = wall_named(table, text.substr(5), place);
@@ -55,20 +54,20 @@ void read_on(const Value& value, const Table& table, SectionPlan& plan) {
   }
   plan.boundary = false;
   if (text.starts_with("line:")) {
-    plan.surface = line_of(Kind::line, text.substr(5), place);
+    plan.surface = line_of(Surface::Kind::line, text.substr(5), place);
   } else if (text.starts_with("segment:")) {
-    plan.surface = line_of(Kind::segment, text.substr(8), place);
+    plan.surface = line_of(Surface::Kind::segment, text.substr(8), place);
   } else if (text.starts_with("circle:")) {
     const std::vector<double> circle = numbers_of(text.substr(7), ',', 3, place);
-    plan.surface.kind = Kind::circle;
+    plan.surface.kind = Surface::Kind::circle;
     plan.surface.from = {circle[0], circle[1]};
     plan.surface.radius = circle[2];
     if (!(circle[2] > 0)) throw InputError(place, "the circle has no radius", "a radius > 0");
   } else {
-    const std::pair<const char*, Kind> conditions[] = {{"x=", Kind::position_x},
-                                                       {"y=", Kind::position_y},
-                                                       {"vx=", Kind::velocity_x},
-                                                       {"vy=", Kind::velocity_y}};
+    const std::pair<const char*, Surface::Kind> conditions[] = {{"x=", Surface::Kind::position_x},
+                                                                {"y=", Surface::Kind::position_y},
+                                                                {"vx=", Surface::Kind::velocity_x},
+                                                                {"vy=", Surface::Kind::velocity_y}};
     for (const auto& [start, kind] : conditions) {
       if (!text.starts_with(start)) continue;
       plan.surface.kind = kind;

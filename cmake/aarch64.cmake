@@ -1,0 +1,18 @@
+# Cross-compiles for 64-bit ARM against a Debian in a folder, CAROM_ROOT; what is built is run by qemu (tests/bare_arm.sh).
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES CAROM_ROOT)
+set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
+set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
+set(CMAKE_SYSROOT ${CAROM_ROOT})
+set(CMAKE_FIND_ROOT_PATH ${CAROM_ROOT})
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
+set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64-static -L ${CAROM_ROOT})
+# CMake asks HDF5's own compiler for these, which does not run here.
+set(HDF5_C_LIBRARY_hdf5 ${CAROM_ROOT}/usr/lib/aarch64-linux-gnu/hdf5/serial/libhdf5.so)
+set(HDF5_C_INCLUDE_DIR ${CAROM_ROOT}/usr/include/hdf5/serial)
+file(GLOB Python_INCLUDE_DIR ${CAROM_ROOT}/usr/include/python3.[0-9]*)
