@@ -3,7 +3,7 @@
 import os
 import tempfile
 
-from . import plot
+from . import _carom, plot
 from .errors import InputError, path_of
 from .records import Report, outcome_of
 from .system import System
@@ -65,6 +65,9 @@ class Result(OfSystem):
         if os.path.exists(path) and not force:
             raise InputError(f"{path}: the output file exists already", (path, 0, 0, ""))
         archive = self._archive
+        if isinstance(archive, str) and not os.path.exists(archive):  # a value of a sweep
+            _carom.extract_value(archive, path)
+            return
         if isinstance(archive, str):
             with open(archive, "rb") as stream:
                 archive = stream.read()
@@ -88,10 +91,9 @@ def opened(path) -> Result:
     try:
         kind, outcome = outcome_of(path)
         of = outcome.system
-        toml, name = of if isinstance(of, tuple) else (of.toml, of.name)
         trajectory = getattr(outcome, "trajectory", None)
         options = [] if trajectory is None else [("trajectory", str(trajectory))]
-        result = Result._KINDS[kind](outcome, System(toml, name, (), options))
+        result = Result._KINDS[kind](outcome, System(of.toml, of.name, (), options))
     except InputError:
         raise
     except (ArithmeticError, AttributeError, LookupError, MemoryError, RuntimeError, TypeError, ValueError) as error:

@@ -1,14 +1,12 @@
 """A command for each of many values of a key, or each point of a plane of two keys."""
 
 import itertools
-import os
-import tempfile
 
 import numpy
 
 from . import _carom, plot, toml
 from .errors import InputError, text_of
-from .stored import Result, check_archive, opened
+from .stored import Result, opened
 from .system import _SECTION_OF, System
 
 
@@ -66,8 +64,7 @@ class Swept:
             )
 
     def outcome(self, results):
-        reports = [(r._outcome.json(), "\n".join((*r.doubts, "")) if r.doubts else "") for r in results]
-        return _carom.make_sweep(self.plan, reports)
+        return _carom.make_sweep(self.plan, [result._outcome for result in results])
 
 
 class Sweep(Result, archive="sweep"):
@@ -80,62 +77,43 @@ class Sweep(Result, archive="sweep"):
            rate_stderr, D, D_stderr … in the units of the result; NaN where there is none
     """
 
-    def __init__(self, outcome, system, results=None):
+    def __init__(self, outcome, system, results=None, table=None):
         super().__init__(outcome, system)
         self._results = results
+        self._table = table
 
     @property
     def table(self) -> numpy.ndarray:
         """A row for each value, (values,): the keys, then each number of the result with its
         `_stderr`, in the units of the command's own results; NaN: there is none."""
-        columns = self._outcome.table()
-        arrays = [numpy.asarray(column) for column in columns.values()]
-        rows = numpy.empty(
-            len(arrays[0]), dtype=[(name, one.dtype) for name, one in zip(columns, arrays)]
-        )
-        for name, one in zip(columns, arrays):
-            rows[name] = one
-        return rows
+        if self._table is None:
+            columns = {name: numpy.asarray(column) for name, column in self._outcome.table().items()}
+            self._table = numpy.empty(len(self), dtype=[(name, one.dtype) for name, one in columns.items()])
+            for name, one in columns.items():
+                self._table[name] = one
+        return self._table
 
     @property
     def results(self) -> list[Result]:
         """The result of each value; of an archive they are read when they are asked for."""
         if self._results is None:
-            made = []
-            folder = tempfile.TemporaryDirectory()
-            for index in self._outcome.indices:
-                file = os.path.join(folder.name, f"{index}.h5")
-                if not self._outcome.extract(index, file):
-                    raise ValueError(f"the sweep stores no archive of its value {index}")
-                result = opened(file)
-                with open(file, "rb") as stream:
-                    result._archive = stream.read()
-                result._folder = folder  # its rows are read when they are asked for
-                made.append(result)
-            self._results = made
+            self._results = [opened(value) for value in self._outcome.values]
+            for result in self._results:
+                result._folder = self._outcome  # of a copy it keeps the file from which rows are read
         return self._results
 
     def __getitem__(self, index):
         return self.results[index]
 
     def __len__(self):
-        return len(self._outcome.indices)
+        return len(self._json["sweep"])
 
-    def save(self, path, force: bool = False) -> None:
-        """Writes the archive that the program writes with -o; `force` replaces one."""
-        if self._archive is not None:
-            super().save(path, force)
-            return
-        with tempfile.TemporaryDirectory() as folder:
-            files = []
-            for index, result in enumerate(self.results):
-                files.append(os.path.join(folder, f"{index}.h5") if hasattr(result, "save") else "")
-                if files[-1]:
-                    result.save(files[-1])
-            self._outcome.save(check_archive(path), force, files)
+    def _stored(self):
+        archives = self._results is None or all(isinstance(one, Result) for one in self._results)
+        return super()._stored() if archives else None
 
     def _made_of(self):
-        return self._system, self._results
+        return self._system, self._results, self.table
 
     def _pictures(self):
         return {"sweep": plot.sweep}

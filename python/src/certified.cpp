@@ -1,18 +1,12 @@
 // Certified orbits: every digit that is handed over is guaranteed.
-#include <fmt/format.h>
-#include <pybind11/stl.h>
+#include <pybind11/pybind11.h>
 
 #include <memory>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "analyses/run/command_certified.hpp"
-#include "carom/analyses/run/certified_archive.hpp"
-#include "carom/base/error.hpp"
 #include "carom/base/stopwatch.hpp"
 #include "carom/certify/certified_orbit.hpp"
-#include "cli/common.hpp"
 #include "loaded.hpp"
 #include "run_in_background.hpp"
 
@@ -22,23 +16,17 @@ namespace carom::python {
 
 namespace {
 
-struct CertifiedOutcome {
-  std::shared_ptr<Loaded> system;
-  CertifiedTask task;
-  CertifiedEnd end;
-  CertifiedEffort effort;
-  std::vector<CertifiedHit> hits;
-  double seconds = 0, cpu_seconds = 0;
-};
+using cli::CertifiedOutcome;
 
-py::tuple run(const std::shared_ptr<Loaded>& loaded, const py::object& progress) {
-  CertifiedOutcome outcome;
-  outcome.system = std::make_shared<Loaded>(*loaded);  // its start is drawn
+py::tuple run(const LoadedPointer& loaded, const py::object& progress) {
+  // Its start is drawn.
+  const auto made = std::make_shared<CertifiedOutcome>(std::make_shared<Loaded>(*loaded));
+  CertifiedOutcome& outcome = *made;
   Course course;
   const std::exception_ptr interruption = run_in_background(course, progress, [&] {
     const Stopwatch watch;
-    outcome.task = cli::certified_task(loaded->options, outcome.system->loaded);
-    CertifiedOrbit orbit(outcome.system->loaded.exact, outcome.task,
+    outcome.task = cli::certified_task(loaded->options, outcome.loaded->loaded);
+    CertifiedOrbit orbit(outcome.loaded->loaded.exact, outcome.task,
                          [&] { return course.stop.load(std::memory_order_relaxed); });
     while (auto hit = orbit.next()) {
       course.done.store(hit->number, std::memory_order_relaxed);
@@ -54,7 +42,7 @@ py::tuple run(const std::shared_ptr<Loaded>& loaded, const py::object& progress)
     outcome.cpu_seconds = watch.cpu_seconds();
   });
   if (interruption && !outcome.end.x.has_value()) std::rethrow_exception(interruption);
-  return py::make_tuple(std::move(outcome), error_of(interruption));
+  return py::make_tuple(made, error_of(interruption));
 }
 
 // Of each hit: number, wall, and t, x, y, vx, vy as text.
@@ -63,7 +51,7 @@ py::list hits(const CertifiedOutcome& self) {
   for (const CertifiedHit& hit : self.hits) {
     py::tuple row(7);
     row[0] = hit.number;
-    row[1] = self.system->system().table->wall(hit.wall).name;
+    row[1] = self.system().table->wall(hit.wall).name;
     std::size_t column = 2;
     for (const CertifiedNumber* number : {&hit.t, &hit.x, &hit.y, &hit.vx, &hit.vy})
       row[column++] = number->text(self.task.digits);
@@ -72,55 +60,13 @@ py::list hits(const CertifiedOutcome& self) {
   return all;
 }
 
-CertifiedOutcome open_certified(const std::string& file) {
-  StoredCertified stored = read_certified(file);
-  if (!stored.end.x.has_value())
-    throw InputError(Place{file, 0, 0, ""}, "the run was interrupted before its first state");
-  CertifiedOutcome outcome;
-  outcome.system = std::make_shared<Loaded>();
-  outcome.system->loaded = read_system(stored.system_toml, file + ": /system");
-  outcome.system->loaded.system.name = stored.system_name;
-  outcome.system->options.command = "run";
-  outcome.task = std::move(stored.task);
-  outcome.end = std::move(stored.end);
-  outcome.effort = stored.effort;
-  outcome.hits = std::move(stored.hits);
-  return outcome;
-}
-
-void save(const CertifiedOutcome& self, const std::string& file, bool force) {
-  const LoadedSystem& loaded = self.system->loaded;
-  CertifiedArchive archive(followed(file), loaded,
-                           cli::provenance_of(self.system->options, loaded.system, 1), self.task,
-                           force);
-  for (const CertifiedHit& hit : self.hits) archive.hit(hit);
-  archive.finish(self.end, self.effort, name_of(self.end.fate),
-                 self.end.fate != CertifiedFate::interrupted);
-}
-
 }  // namespace
 
 void add_certified(py::module_& module) {
-  py::class_<CertifiedOutcome>(module, "CertifiedOutcome")
-      .def_property_readonly("system", [](const CertifiedOutcome& self) { return self.system; })
-      .def("json",
-           [](const CertifiedOutcome& self) {
-             return cli::certified_json(self.system->system(), self.end, self.task, self.effort, "",
-                                        self.seconds, self.cpu_seconds)
-                 .text();
-           })
-      .def("text",
-           [](const CertifiedOutcome& self) {
-             return cli::certified_text(self.system->system(), self.end, self.task, self.effort, "",
-                                        self.seconds);
-           })
-      .def("doubts", [](const CertifiedOutcome&) { return std::vector<std::string>(); })
-      .def("hits", &hits)
-      .def("save", &save, py::call_guard<py::gil_scoped_release>(), py::arg("file"),
-           py::arg("force"));
+  py::class_<CertifiedOutcome, Outcome, std::shared_ptr<CertifiedOutcome>>(module,
+                                                                           "CertifiedOutcome")
+      .def("hits", &hits);
   module.def("run_certified", &run, py::arg("system"), py::arg("progress"));
-  module.def("open_certified", &open_certified, py::call_guard<py::gil_scoped_release>(),
-             py::arg("file"));
 }
 
 }  // namespace carom::python

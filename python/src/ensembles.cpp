@@ -8,11 +8,10 @@
 
 #include "arrays.hpp"
 #include "carom/analyses/kinds.hpp"
-#include "carom/files/archive.hpp"
 #include "carom/files/ensembles.hpp"
 #include "cli/commands/run_ensemble.hpp"
 #include "cli/common.hpp"
-#include "cli/reports/ensemble_reports.hpp"
+#include "cli/reports/ensemble_outcome.hpp"
 #include "loaded.hpp"
 #include "run_in_background.hpp"
 
@@ -45,69 +44,8 @@ struct ExponentRow {
   double s, v_parallel, lambda, sali;
   std::int8_t regularity;
 };
-template <class Result>
-constexpr bool has_exponents = std::is_same_v<typename Result::RecordFields, ExponentFields>;
-
-// A result of any kind, as Python has it.
-class EnsembleOutcome {
- public:
-  virtual ~EnsembleOutcome() = default;
-  virtual std::string json() const = 0;
-  virtual std::string text() const = 0;
-  virtual std::vector<std::string> doubts() const = 0;
-  virtual py::object trajectories() const = 0;
-  virtual void save(const std::string& file, bool force) const = 0;
-  /// Throws InputError where nothing could be measured.
-  virtual void check() const = 0;
-
-  LoadedPointer system;
-  std::string status;
-};
-using OutcomePointer = std::shared_ptr<EnsembleOutcome>;
-
-template <class Result>
-class OutcomeOf final : public EnsembleOutcome {
- public:
-  std::string json() const override {
-    return cli::result_json(system->system(), result, {status, "", {}}).text();
-  }
-  std::string text() const override {
-    return cli::result_text(system->system(), result, {status, "", {}});
-  }
-  std::vector<std::string> doubts() const override {
-    return cli::doubts_of(system->system(), result).lines;
-  }
-  py::object trajectories() const override {
-    if (!rows_) return py::none();
-    return array_of<Row>(rows_);
-  }
-  void save(const std::string& file, bool force) const override;
-  void check() const override { cli::refuse_nothing(system->options, system->system(), result); }
-
-  /// One row a particle, from records that are in order.
-  void keep(std::vector<TrajectoryRecord>&& records) {
-    auto made = std::make_shared<std::vector<Row>>();
-    made->reserve(records.size());
-    for (const TrajectoryRecord& r : records) {
-      const auto fate = static_cast<std::int8_t>(r.fate);
-      if constexpr (has_exponents<Result>)
-        made->push_back({r.index, r.x, r.y, r.vx, r.vy, fate, r.hole, r.time, r.hits, r.wall, r.s,
-                         r.v_parallel, r.lambda, r.sali, static_cast<std::int8_t>(r.regularity)});
-      else
-        made->push_back({r.index, r.x, r.y, r.vx, r.vy, fate, r.hole, r.time, r.hits, r.wall, r.s,
-                         r.v_parallel});
-    }
-    records_ = std::move(records);
-    rows_ = std::move(made);
-  }
-
-  Result result;
-
- private:
-  using Row = std::conditional_t<has_exponents<Result>, ExponentRow, ParticleRow>;
-  std::vector<TrajectoryRecord> records_;
-  std::shared_ptr<const std::vector<Row>> rows_;  ///< null: not asked for
-};
+using cli::EnsembleOutcome;
+using cli::OutcomeOf;
 
 // Keeps the records of blocks as they come.
 template <class Result>
@@ -124,10 +62,8 @@ class Records : public EnsembleJournal<Result> {
 
 // The outcome, and what ended it early or None.
 template <class Result>
-std::pair<OutcomePointer, std::exception_ptr> fly(const std::shared_ptr<Loaded>& loaded,
-                                                  const py::object& progress) {
-  auto outcome = std::make_shared<OutcomeOf<Result>>();
-  outcome->system = loaded;
+py::tuple fly(const LoadedPointer& loaded, const py::object& progress) {
+  const auto outcome = std::make_shared<OutcomeOf<Result>>(loaded);
   const System& system = loaded->system();
   EnsembleOptions<Result> how;
   how.threads = cli::threads_of(loaded->options);
@@ -148,38 +84,42 @@ std::pair<OutcomePointer, std::exception_ptr> fly(const std::shared_ptr<Loaded>&
   outcome->status = cli::status_of(outcome->result.complete);
   std::sort(records.all.begin(), records.all.end(),
             [](const auto& a, const auto& b) { return a.index < b.index; });
-  if (how.journal) outcome->keep(std::move(records.all));
-  return {std::move(outcome), interruption};
+  if (how.journal) outcome->records = std::move(records.all);
+  return py::make_tuple(outcome, error_of(interruption));
 }
 
-template <class Result>
-void OutcomeOf<Result>::save(const std::string& file, bool force) const {
-  const auto& [loaded, options] = *system;
-  typename EnsembleArchive<Result>::Plan plan;
-  plan.force = force;
-  plan.per_trajectory = rows_ != nullptr;
-  Provenance origin = cli::provenance_of(options, loaded.system, result.threads);
-  refuse_existing(file, force);
-  EnsembleArchive<Result> archive(followed(file), loaded, origin, plan);
-  if (rows_) archive.block({0, loaded.system.run.trajectories}, std::vector(records_));
-  archive.mark();
-  archive.finish(result, status);
+void set(ParticleRow& row, const TrajectoryRecord& r) {
+  row = {r.index, r.x,    r.y,    r.vx,   r.vy, static_cast<std::int8_t>(r.fate),
+         r.hole,  r.time, r.hits, r.wall, r.s,  r.v_parallel};
+}
+void set(ExponentRow& row, const TrajectoryRecord& r) {
+  row = {r.index,  r.x,    r.y,
+         r.vx,     r.vy,   static_cast<std::int8_t>(r.fate),
+         r.hole,   r.time, r.hits,
+         r.wall,   r.s,    r.v_parallel,
+         r.lambda, r.sali, static_cast<std::int8_t>(r.regularity)};
 }
 
-template <class Result>
-OutcomePointer open(const std::string& file) {
-  Stored<Result> stored = read_ensemble<Result>(file);
-  auto loaded = std::make_shared<Loaded>();
-  loaded->loaded = system_of(stored);
-  loaded->options.command = kind_of(stored.result);
-  cli::choose_engine(stored.everywhere ? "steps" : "auto", loaded->loaded.system);
-  check_stored(stored, loaded->system());
-  auto outcome = std::make_shared<OutcomeOf<Result>>();
-  outcome->system = loaded;
-  outcome->status = stored.status;
-  outcome->result = std::move(stored.result);
-  if (stored.per_trajectory && stored.file == file) outcome->keep(read_trajectories(stored.file));
-  return outcome;
+template <class Row>
+py::object rows_of(const EnsembleOutcome& self) {
+  if (!self.rows) {
+    auto made = std::make_shared<std::vector<Row>>(self.records->size());
+    for (std::size_t i = 0; i < made->size(); ++i) set((*made)[i], (*self.records)[i]);
+    self.rows = std::move(made);
+  }
+  return array_of<Row>(std::static_pointer_cast<const std::vector<Row>>(self.rows));
+}
+
+py::object trajectories(const EnsembleOutcome& self) {
+  if (!self.records) return py::none();
+  const bool exponents = dynamic_cast<const OutcomeOf<LyapunovResult>*>(&self) != nullptr;
+  return exponents ? rows_of<ExponentRow>(self) : rows_of<ParticleRow>(self);
+}
+
+// Throws InputError where nothing could be measured.
+void check(const EnsembleOutcome& self) {
+  if (const auto* lyapunov = dynamic_cast<const OutcomeOf<LyapunovResult>*>(&self))
+    cli::refuse_nothing(self.loaded->options, self.system(), lyapunov->result);
 }
 
 }  // namespace
@@ -193,36 +133,24 @@ void add_ensembles(py::module_& module) {
   for (int i = 0; i <= static_cast<int>(last_fate); ++i)
     fates.append(name_of(static_cast<Fate>(i)));
   module.attr("fates") = fates;
-  py::class_<EnsembleOutcome, OutcomePointer>(module, "EnsembleOutcome")
-      .def_property_readonly(
-          "system",
-          [](const EnsembleOutcome& self) { return std::const_pointer_cast<Loaded>(self.system); })
-      .def("json", &EnsembleOutcome::json)
-      .def("text", &EnsembleOutcome::text)
-      .def("doubts", &EnsembleOutcome::doubts)
-      .def("trajectories", &EnsembleOutcome::trajectories)
-      .def("check", &EnsembleOutcome::check)
-      .def("save", &EnsembleOutcome::save, py::call_guard<py::gil_scoped_release>(),
-           py::arg("file"), py::arg("force"));
+  py::class_<EnsembleOutcome, Outcome, std::shared_ptr<EnsembleOutcome>>(module, "EnsembleOutcome")
+      .def("trajectories", &trajectories)
+      .def("check", &check);
+#define CAROM_CLASS(Result)                                                                  \
+  py::class_<OutcomeOf<Result>, EnsembleOutcome, std::shared_ptr<OutcomeOf<Result>>>(module, \
+                                                                                     #Result);
+  CAROM_FOR_ENSEMBLES(CAROM_CLASS)
+#undef CAROM_CLASS
   module.def(
       "ensemble",
-      [](const std::shared_ptr<Loaded>& loaded, const py::object& progress) {
-        std::pair<OutcomePointer, std::exception_ptr> flown;
+      [](const LoadedPointer& loaded, const py::object& progress) {
+        py::tuple flown;
         for_kind(loaded->options.command, [&]<class Result>(std::type_identity<Result>) {
           flown = fly<Result>(loaded, progress);
         });
-        return py::make_tuple(std::move(flown.first), error_of(flown.second));
+        return flown;
       },
       py::arg("system"), py::arg("progress"));
-  module.def(
-      "open_ensemble",
-      [](const std::string& file) {
-        OutcomePointer opened;
-        for_kind(kind_of_archive(file),
-                 [&]<class Result>(std::type_identity<Result>) { opened = open<Result>(file); });
-        return opened;
-      },
-      py::call_guard<py::gil_scoped_release>(), py::arg("file"));
 }
 
 }  // namespace carom::python

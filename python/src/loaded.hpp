@@ -1,4 +1,4 @@
-// A system that is loaded for a command, with the options of that command as text.
+// What the parts of the module share: systems that are loaded for a command, and outcomes.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -8,16 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "carom/files/system_file.hpp"
-#include "cli/options.hpp"
+#include "cli/outcome.hpp"
 
 namespace carom::python {
 
-struct Loaded {
-  LoadedSystem loaded;
-  cli::Options options;
-  const System& system() const { return loaded.system; }
-};
+using cli::Loaded;
+using cli::LoadedPointer;
+using cli::Outcome;
 using Texts = std::vector<std::pair<std::string, std::string>>;
 
 /// What a command was asked for: the text of its system ("": a built-in one, by its name), changes
@@ -25,9 +22,8 @@ using Texts = std::vector<std::pair<std::string, std::string>>;
 cli::Options options_of(const std::string& toml, const std::string& name,
                         const std::string& command, const Texts& set, const Texts& texts);
 
-using LoadedPointer = std::shared_ptr<const Loaded>;
-
 /// Classes and functions of each part of the module.
+void add_outcomes(pybind11::module_&);
 void add_loading(pybind11::module_&);
 void add_ensembles(pybind11::module_&);
 void add_runs(pybind11::module_&);

@@ -7,12 +7,14 @@
 
 #include "carom/base/error.hpp"
 #include "carom/base/stopwatch.hpp"
+#include "carom/files/archive.hpp"
 #include "cli/command_table.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/table_report.hpp"
 #include "files/text_file.hpp"
 #include "loaded.hpp"
+#include "run_in_background.hpp"
 
 namespace py = pybind11;
 
@@ -47,16 +49,24 @@ std::vector<std::pair<std::string, OptionNames>> options_of_commands() {
   return all;
 }
 
-struct TableOutcome {
-  LoadedPointer system;
+struct TableOutcome final : Outcome {
+  explicit TableOutcome(const LoadedPointer& of)
+      : Outcome(of),
+        measured(carom::measure(*system().table)),
+        seconds(watch.seconds()),
+        cpu_seconds(watch.cpu_seconds()) {}
+  files::Json json() const override {
+    return cli::table_json(loaded->loaded, measured, "", seconds, cpu_seconds);
+  }
+  std::string text() const override { return cli::table_text(system(), measured, ""); }
+
+  Stopwatch watch;
   TableMeasure measured;
   double seconds, cpu_seconds;
 };
 
-TableOutcome measured(const std::shared_ptr<Loaded>& loaded) {
-  const Stopwatch watch;
-  TableMeasure measure = carom::measure(*loaded->system().table);
-  return {loaded, std::move(measure), watch.seconds(), watch.cpu_seconds()};
+std::shared_ptr<TableOutcome> measured(const LoadedPointer& loaded) {
+  return std::make_shared<TableOutcome>(loaded);
 }
 
 }  // namespace
@@ -74,32 +84,40 @@ cli::Options options_of(const std::string& toml, const std::string& name,
   return options;
 }
 
+void add_outcomes(py::module_& module) {
+  py::class_<Outcome, cli::OutcomePointer>(module, "Outcome")
+      .def_readonly("system", &Outcome::loaded)
+      .def("json", [](const Outcome& self) { return self.json().text(); })
+      .def("text", &Outcome::text)
+      .def("doubts", &Outcome::doubts)
+      .def(
+          "save",
+          [](const Outcome& self, const std::string& file, bool force) {
+            Course course;
+            const std::exception_ptr interruption =
+                run_in_background(course, py::none(), [&] { self.save(file, force, course.stop); });
+            if (interruption) std::rethrow_exception(interruption);
+          },
+          py::arg("file"), py::arg("force"));
+  module.def("open_outcome", &cli::open_outcome, py::call_guard<py::gil_scoped_release>(),
+             py::arg("file"));
+  module.def("kind_of_archive", &kind_of_archive, py::call_guard<py::gil_scoped_release>(),
+             py::arg("file"));
+}
+
 void add_loading(py::module_& module) {
-  py::class_<Loaded, std::shared_ptr<Loaded>>(module, "Loaded")
+  py::class_<Loaded, LoadedPointer>(module, "Loaded")
       .def_property_readonly("name", [](const Loaded& self) { return self.system().name; })
       .def_property_readonly("title", [](const Loaded& self) { return self.system().title; })
       .def_property_readonly("toml", [](const Loaded& self) { return self.loaded.resolved_toml; })
       .def_property_readonly("engine",
                              [](const Loaded& self) { return cli::engine_of(self.system()); });
-  py::class_<TableOutcome>(module, "TableOutcome")
-      .def("json",
-           [](const TableOutcome& self) {
-             return cli::table_json(self.system->loaded, self.measured, "", self.seconds,
-                                    self.cpu_seconds)
-                 .text();
-           })
-      .def("text",
-           [](const TableOutcome& self) {
-             return cli::table_text(self.system->system(), self.measured, "");
-           })
-      .def("doubts", [](const TableOutcome&) { return std::vector<std::string>(); });
+  py::class_<TableOutcome, Outcome, std::shared_ptr<TableOutcome>>(module, "TableOutcome");
   module.def("measure", &measured, py::call_guard<py::gil_scoped_release>(), py::arg("system"));
   module.def(
       "load",
       [](const std::string& toml, const std::string& name, const std::string& command,
-         const Texts& set, const Texts& texts) {
-        return std::const_pointer_cast<Loaded>(load(toml, name, command, set, texts));
-      },
+         const Texts& set, const Texts& texts) { return load(toml, name, command, set, texts); },
       py::call_guard<py::gil_scoped_release>(), py::arg("toml"), py::arg("name"),
       py::arg("command"), py::arg("set"), py::arg("texts"));
   module.def(

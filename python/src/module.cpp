@@ -45,6 +45,7 @@ PYBIND11_MODULE(_carom, module) {
                                       lines ? carom::base::Lines::many : carom::base::Lines::one);
       },
       py::arg("text"), py::arg("lines"));
+  carom::python::add_outcomes(module);
   carom::python::add_loading(module);
   carom::python::add_ensembles(module);
   carom::python::add_runs(module);

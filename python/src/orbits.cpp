@@ -3,14 +3,10 @@
 #include <pybind11/stl.h>
 
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "analyses/orbits/command.hpp"
 #include "analyses/orbits/report.hpp"
-#include "carom/analyses/orbits/archive.hpp"
-#include "carom/files/archive.hpp"
-#include "cli/common.hpp"
 #include "loaded.hpp"
 #include "run_in_background.hpp"
 
@@ -20,22 +16,12 @@ namespace carom::python {
 
 namespace {
 
-struct OrbitsOutcome {
-  LoadedPointer system;
-  std::uint64_t most_hits = 0;
-  OrbitSearchResult result;
-  ProofsOfOrbits proofs;
+using cli::OrbitsOutcome;
 
-  cli::OrbitContext context() const {
-    return {most_hits, result.complete ? "completed" : "interrupted", "", false, proofs};
-  }
-};
-
-py::tuple orbits(const std::shared_ptr<Loaded>& loaded, const py::object& progress) {
+py::tuple orbits(const LoadedPointer& loaded, const py::object& progress) {
   OrbitSearchOptions how = cli::orbit_search_options(loaded->options);
-  OrbitsOutcome outcome;
-  outcome.system = loaded;
-  outcome.most_hits = how.most_hits;
+  const auto outcome = std::make_shared<OrbitsOutcome>(loaded);
+  outcome->most_hits = how.most_hits;
   Course course;
   how.interrupted = &course.stop;
   how.progress = [&](std::uint64_t tried, std::uint64_t all) {
@@ -44,32 +30,11 @@ py::tuple orbits(const std::shared_ptr<Loaded>& loaded, const py::object& progre
   };
   const std::exception_ptr interruption = run_in_background(course, progress, [&] {
     cli::digits_of_orbits(loaded->options, *loaded->system().table);  // refused at once
-    outcome.result = find_orbits(loaded->system(), how);
-    outcome.proofs =
-        cli::proofs_of_orbits(loaded->options, loaded->loaded, outcome.result, course.stop);
+    outcome->result = find_orbits(loaded->system(), how);
+    outcome->proofs =
+        cli::proofs_of_orbits(loaded->options, loaded->loaded, outcome->result, course.stop);
   });
-  return py::make_tuple(std::move(outcome), error_of(interruption));
-}
-
-OrbitsOutcome open_orbits(const std::string& file) {
-  StoredOrbits stored = read_orbits(file);
-  auto loaded = std::make_shared<Loaded>();
-  loaded->loaded = read_system(stored.system_toml, file + ": /system");
-  loaded->loaded.system.name = stored.system_name;
-  loaded->options.command = "orbit";
-  OrbitsOutcome outcome;
-  outcome.system = std::move(loaded);
-  outcome.most_hits = stored.most_hits;
-  outcome.result = std::move(stored.result);
-  outcome.proofs = std::move(stored.proofs);
-  return outcome;
-}
-
-void save(const OrbitsOutcome& self, const std::string& file, bool force) {
-  const LoadedSystem& loaded = self.system->loaded;
-  write_orbits(followed(file), loaded,
-               cli::provenance_of(self.system->options, loaded.system, self.result.threads),
-               self.result, self.proofs, self.most_hits, force);
+  return py::make_tuple(outcome, error_of(interruption));
 }
 
 // (t, x, y, vx, vy) at each hit and at the end of the period, in the plane.
@@ -94,32 +59,16 @@ py::array_t<double> path_of(const PeriodicOrbit& orbit, const Table& table) {
 std::vector<py::array_t<double>> paths(const OrbitsOutcome& self) {
   std::vector<py::array_t<double>> all;
   for (const PeriodicOrbit& orbit : self.result.orbits)
-    all.push_back(path_of(orbit, *self.system->system().table));
+    all.push_back(path_of(orbit, *self.system().table));
   return all;
 }
 
 }  // namespace
 
 void add_orbits(py::module_& module) {
-  py::class_<OrbitsOutcome>(module, "OrbitsOutcome")
-      .def_property_readonly(
-          "system",
-          [](const OrbitsOutcome& self) { return std::const_pointer_cast<Loaded>(self.system); })
-      .def("json",
-           [](const OrbitsOutcome& self) {
-             return cli::orbit_json(self.system->system(), self.result, self.context()).text();
-           })
-      .def("text",
-           [](const OrbitsOutcome& self) {
-             return cli::orbit_text(self.system->system(), self.result, self.context());
-           })
-      .def("doubts", [](const OrbitsOutcome&) { return std::vector<std::string>(); })
-      .def("paths", &paths)
-      .def("save", &save, py::call_guard<py::gil_scoped_release>(), py::arg("file"),
-           py::arg("force"));
+  py::class_<OrbitsOutcome, Outcome, std::shared_ptr<OrbitsOutcome>>(module, "OrbitsOutcome")
+      .def("paths", &paths);
   module.def("orbits", &orbits, py::arg("system"), py::arg("progress"));
-  module.def("open_orbits", &open_orbits, py::call_guard<py::gil_scoped_release>(),
-             py::arg("file"));
 }
 
 }  // namespace carom::python

@@ -1,9 +1,8 @@
 // The engine against identities and published values.
 #include <fmt/format.h>
-#include <pybind11/stl.h>
 
+#include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "carom/files/ensembles.hpp"
@@ -18,18 +17,22 @@ namespace carom::python {
 
 namespace {
 
-std::string text_of(const cli::Validation& all) {
-  std::string text;
-  for (const auto& one : all.cases) text += cli::text_of(one);
-  return text + cli::summary_of(all);
-}
+struct ValidationOutcome final : Outcome {
+  files::Json json() const override { return cli::validation_json(all); }
+  std::string text() const override {
+    std::string text;
+    for (const auto& one : all.cases) text += cli::text_of(one);
+    return text + cli::summary_of(all);
+  }
+  std::vector<std::string> doubts() const override {
+    std::vector<std::string> failed;
+    for (const auto& one : all.cases)
+      if (!one.check.passed) failed.push_back(fmt::format("failed: {}", one.of.name));
+    return failed;
+  }
 
-std::vector<std::string> doubts_of(const cli::Validation& all) {
-  std::vector<std::string> failed;
-  for (const auto& one : all.cases)
-    if (!one.check.passed) failed.push_back(fmt::format("failed: {}", one.of.name));
-  return failed;
-}
+  cli::Validation all;
+};
 
 py::tuple validate(bool soak, const std::string& scale, const std::string& threads,
                    const py::object& progress) {
@@ -42,22 +45,20 @@ py::tuple validate(bool soak, const std::string& scale, const std::string& threa
   how.threads = cli::threads_of(options);
   Course course;
   how.interrupted = &course.stop;
-  cli::Validation all;
+  const auto outcome = std::make_shared<ValidationOutcome>();
   const std::exception_ptr interruption = run_in_background(course, progress, [&] {
-    all = cli::run_validation(
+    outcome->all = cli::run_validation(
         options, how, [&](double share, const std::string&) { course.share = share; },
         [&](const auto&) { ++course.done; });
   });
-  return py::make_tuple(std::move(all), error_of(interruption));
+  return py::make_tuple(outcome, error_of(interruption));
 }
 
 }  // namespace
 
 void add_validation(py::module_& module) {
-  py::class_<cli::Validation>(module, "ValidationOutcome")
-      .def("json", [](const cli::Validation& self) { return cli::validation_json(self).text(); })
-      .def("text", &text_of)
-      .def("doubts", &doubts_of);
+  py::class_<ValidationOutcome, Outcome, std::shared_ptr<ValidationOutcome>>(module,
+                                                                             "ValidationOutcome");
   module.def("validate", &validate, py::arg("soak"), py::arg("scale"), py::arg("threads"),
              py::arg("progress"));
 }

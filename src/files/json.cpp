@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "base/printable.hpp"
+#include "carom/base/decimal.hpp"
 
 namespace carom::files {
 
@@ -77,6 +79,55 @@ Json& Json::add(const Json& object) {
 Json& Json::push(Json value) {
   members_.emplace_back(std::string(), std::move(value));
   return *this;
+}
+
+const Json* Json::find(std::string_view path) const {
+  if (kind_ == Kind::scalar) return nullptr;
+  if (kind_ == Kind::object)
+    for (const auto& [key, value] : members_)
+      if (key == path) return &value;  // keys may hold points themselves: "field.B"
+  const std::size_t point = std::min(path.find('.'), path.size());
+  const std::string_view first = path.substr(0, point);
+  const Json* found = nullptr;
+  if (kind_ == Kind::array) {
+    std::int64_t index = 0;
+    const auto [end, error] = std::from_chars(first.data(), first.data() + first.size(), index);
+    if (error != std::errc{} || end != first.data() + first.size()) return nullptr;
+    const auto size = static_cast<std::int64_t>(members_.size());
+    if (index < 0) index += size;
+    if (index < 0 || index >= size) return nullptr;
+    found = &members_[static_cast<std::size_t>(index)].second;
+  } else {
+    for (const auto& [key, value] : members_)
+      if (key == first) found = &value;
+  }
+  return !found || point == path.size() ? found : found->find(path.substr(point + 1));
+}
+
+std::optional<std::string> Json::string() const {
+  if (kind_ != Kind::scalar || text_.front() != '"') return {};
+  std::string out;
+  for (std::size_t i = 1; i + 1 < text_.size(); ++i) {
+    if (text_[i] != '\\') {
+      out += text_[i];
+      continue;
+    }
+    const char c = text_[++i];
+    if (c == 'u') {  // control characters, the only ones that are written so
+      unsigned code = 0;
+      std::from_chars(text_.data() + i + 1, text_.data() + std::min(i + 5, text_.size()), code, 16);
+      out += static_cast<char>(code);
+      i += 4;
+    } else {
+      out += c == 'n' ? '\n' : c == 't' ? '\t' : c == 'r' ? '\r' : c;
+    }
+  }
+  return out;
+}
+
+std::optional<double> Json::number() const {
+  if (kind_ != Kind::scalar) return {};
+  return nearest_double(string().value_or(text_));
 }
 
 bool Json::holds_objects() const {

@@ -183,7 +183,7 @@ TEST(Sweep, GoesOnAfterAKill) {
   const std::vector<std::string> whole = digests_of(shell(command).out);
   ASSERT_EQ(whole.size(), 5u);
   shell(command +
-        "--checkpoint blocks:1 -o a.h5 & pid=$!; until_there a.h5.part/value-2.report; "
+        "--checkpoint blocks:1 -o a.h5 & pid=$!; until_there a.h5.part/value-2; "
         "kill -9 $pid; wait $pid");
   EXPECT_EQ(shell(command + "-o a.h5").status, 1) << "there is one to go on with";
   const Outcome rest = shell("$carom escape --resume a.h5 --json");
@@ -198,7 +198,7 @@ TEST(Sweep, GoesOnAfterAnInterrupt) {
       "--sweep field.B=lin:0.5:1.5:5 ";
   const std::vector<std::string> whole = digests_of(shell(command).out);
   const Outcome cut = shell(command +
-                            "-o a.h5 & pid=$!; until_there a.h5.part/value-1.report; "
+                            "-o a.h5 & pid=$!; until_there a.h5.part/value-1; "
                             "kill $pid; wait $pid");
   EXPECT_EQ(cut.status, 130);
   EXPECT_EQ(shell.files(), std::vector<std::string>{"a.h5"});
@@ -212,8 +212,7 @@ TEST(Sweep, OfRunsGoesOnValueAfterValue) {
   const std::string command =
       "$carom run stadium --closed --quiet --json --collisions 300000 "
       "--sweep table.half_length=lin:1:2:5 ";
-  shell(command +
-        "-o a.h5 & pid=$!; until_there a.h5.part/value-1.report; kill -9 $pid; wait $pid");
+  shell(command + "-o a.h5 & pid=$!; until_there a.h5.part/value-2; kill -9 $pid; wait $pid");
   const Outcome rest = shell("$carom run --resume a.h5 --json");
   EXPECT_EQ(rest.status, 0) << rest.err;
   EXPECT_EQ(rows_of(rest.out).size(), 5u);
@@ -236,29 +235,36 @@ TEST(Sweep, ChecksWhatItGoesOnWith) {
   shell(
       "$carom escape magnetic-square --quiet --trajectories 200000 --sweep "
       "field.B=list:0.5,2,1,1.5,1.25 --checkpoint blocks:1 -o a.h5 & pid=$!; "
-      "until_there a.h5.part/value-2.report; kill -9 $pid; wait $pid; mv a.h5.part kept");
-  refused("escape", "sed -i 's/B = 2/B = 9/' sweep", "sweep: it was changed");
-  refused("escape", "sed -i 's/\"2\"/\"9\"/' sweep", "sweep: it was changed");
-  refused("escape", "printf x >> sweep", "sweep: ");
+      "until_there a.h5.part/value-2; kill -9 $pid; wait $pid; mv a.h5.part kept");
+  refused("escape", "sed -i 's/B = 2/B = 9/' sweep", "sweep: '/values/1/system' was changed");
+  refused("escape", "truncate -s 1000 sweep", "sweep: ");
   refused("escape", ": > sweep", "sweep: ");
-  refused("escape", "sed -i 's/completed/Completed/' value-0.report", "value-0.report: it was");
-  refused("escape", "mv value-0.report value-1.report", "value-1.report: it was");
-  refused("escape", "rm *.report; mv value-0 value-1", "value-1: it is not value 2 of the sweep");
-  refused("escape",
-          "printf '\\377' | dd of=value-0 bs=1 seek=20000 conv=notrunc; rm value-0.report",
-          "value-0: ");
+  refused("escape", "sed -i 's/completed/Completed/' value-0", "value-0: '/@status' was changed");
+  refused("escape", "mv value-0 value-1", "value-1: it is not value 2 of the sweep");
+  refused("escape", "printf '\\377' | dd of=value-0 bs=1 seek=20000 conv=notrunc", "value-0: ");
   shell("rm -rf a.h5*; cp -r kept a.h5.part");
   EXPECT_EQ(shell("$carom escape --resume a.h5").status, 0);
 
   shell(
       "rm -rf a.h5* kept; $carom run stadium --closed --quiet --collisions 300000 --sweep "
       "table.half_length=lin:1:2:5 -o a.h5 & pid=$!; "
-      "until_there a.h5.part/value-1.report; kill -9 $pid; wait $pid; mv a.h5.part kept");
-  refused("run", "printf '\\377' | dd of=value-1 bs=1 seek=20000 conv=notrunc", "value-1: it ");
-  refused("run", "rm value-0", "value-0: it is missing");
-  refused("run", "cp value-0 value-1", "value-1: it ");
-  refused("run", "sed -i 's/\"status\": \"completed\"/\"status\": \"escaped\"/' value-1.report",
-          "value-1.report: it was changed");
+      "until_there a.h5.part/value-2; kill -9 $pid; wait $pid; mv a.h5.part kept");
+  refused("run", "printf '\\377' | dd of=value-1 bs=1 seek=20000 conv=notrunc", "value-1: ");
+  refused("run", "cp value-0 value-1", "value-1: it is not value 2 of the sweep");
+  refused("run", "sed -i 's/completed/Completed/' value-1", "value-1: '/@status' was changed");
+  // A value that is missing is computed anew.
+  shell("rm -rf a.h5*; cp -r kept a.h5.part; rm a.h5.part/value-0");
+  EXPECT_EQ(rows_of(shell("$carom run --resume a.h5 --json").out).size(), 5u);
+}
+
+// A value is opened, shown with another window, and merged by its name in the file of the sweep.
+TEST(Sweep, ValuesAreArchivesByTheirNames) {
+  const Shell shell;
+  ASSERT_EQ(shell(escape + sweep + "-o a.h5").status, 0);
+  const Outcome shown = shell("$carom escape --resume a.h5/values/1 --json");
+  EXPECT_EQ(digest_in(shown.out), digest_in(shell(escape + "--set field.B=1 --json").out))
+      << shown.err;
+  EXPECT_EQ(shell("$carom escape --resume a.h5/values/7").status, 1);
 }
 
 // What a run alone warns of stands in each row, and in the text.

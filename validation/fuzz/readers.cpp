@@ -41,7 +41,6 @@
 #include "carom/files/ensembles.hpp"
 #include "carom/files/system_file.hpp"
 #include "files/checkpoint/sweep_archive.hpp"
-#include "files/checkpoint/sweep_files.hpp"
 #include "files/checkpoint/work_folder.hpp"
 
 namespace carom {
@@ -223,11 +222,10 @@ std::string read_an_ensemble(const std::string& file) {
 /// Reads what there is under this name as the program does, and returns all that it holds.
 std::string read_all(const std::string& file) {
   if (files::has_sweep(file)) {
-    const files::SweepPlan plan = files::kept_plan(file);
-    std::string text = plan.json().text();
-    for (std::size_t i = 0; i < plan.systems.size(); ++i)
-      if (const auto report = files::kept_report(file, plan, i))
-        text += files::Json::parse(*report, files::value_of_sweep(file, i) + ".report").text();
+    const files::SweepPlan plan = files::read_sweep(file).plan;
+    files::check_parts(file, plan);
+    std::string text;
+    for (const std::string& system : plan.systems) text += system;
     return text;
   }
   const std::string kind = has_checkpoint(file) ? kind_of_ensemble(file) : kind_of_archive(file);
@@ -254,8 +252,8 @@ std::string read_all(const std::string& file) {
     read_equilibria(file);
   } else if (kind == "sweep") {
     const files::StoredSweep stored = files::read_sweep(file);
-    for (std::size_t i = 0; i < stored.plan.systems.size(); ++i)
-      files::extract_value(file, i, file + "-value");
+    for (const std::size_t i : stored.computed)
+      files::extract_value(files::value_of_sweep(file, i), file + "-value");
   } else {
     throw InputError(Place{file, 0, 0, ""}, "an archive of the kind '" + kind + "'");
   }

@@ -121,6 +121,7 @@ void write_comparison(const std::string& name, const LoadedSystem& loaded, const
   ArchiveFile file = ArchiveFile::create(aside_of(name), name);
   file.write_head(kind, loaded, origin);
   write_result(file, result, name);
+  file.write_seconds({result.seconds, result.cpu_seconds});
   file.set_status(result.complete ? "completed" : "interrupted", result.complete);
   file.keep_as(name);
 }
@@ -160,6 +161,9 @@ StoredComparison read_comparison(const std::string& name) {
   }
   name_best_schemes(result);
   result.complete = hdf5::read_integer_attribute(file.get(), "complete", name) != 0;
+  const Seconds seconds = ArchiveFile::read_seconds(provenance.get(), name);
+  result.seconds = seconds.wall;
+  result.cpu_seconds = seconds.cpu;
   stored.system_toml = hdf5::read_text(file.get(), "system", name);
   stored.system_name = hdf5::read_string_attribute(provenance.get(), "system", name);
   stored.engine = hdf5::read_string_attribute(provenance.get(), "engine", name);

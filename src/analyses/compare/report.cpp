@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
+#include <utility>
 #include <vector>
 
+#include "carom/analyses/compare/archive.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 
@@ -267,6 +270,19 @@ Json compare_json(const System& system, const Comparison& result, const std::str
   json.set("schemes", std::move(rows));
   if (!archive.empty()) json.set("archive", archive);
   return json;
+}
+
+void ComparisonOutcome::save(const std::string& file, bool force, const std::atomic<bool>&) const {
+  write_comparison(followed(file), loaded->loaded, provenance_of(loaded->options, system(), 1),
+                   result, force);
+}
+
+OutcomePointer open_comparison(const std::string& file) {
+  StoredComparison stored = read_comparison(file);
+  auto outcome = std::make_shared<ComparisonOutcome>(
+      loaded_again("compare", stored.system_toml, stored.system_name, file));
+  outcome->result = std::move(stored.result);
+  return outcome;
 }
 
 }  // namespace carom::cli

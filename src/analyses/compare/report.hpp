@@ -4,6 +4,7 @@
 #include <string>
 
 #include "carom/analyses/compare.hpp"
+#include "cli/outcome.hpp"
 #include "files/json.hpp"
 
 namespace carom::cli {
@@ -12,5 +13,14 @@ namespace carom::cli {
 std::string compare_text(const System&, const Comparison&, const std::string& archive,
                          bool verbose);
 files::Json compare_json(const System&, const Comparison&, const std::string& archive);
+
+struct ComparisonOutcome final : Outcome {
+  using Outcome::Outcome;
+  files::Json json() const override { return compare_json(system(), result, ""); }
+  std::string text() const override { return compare_text(system(), result, "", false); }
+  void save(const std::string& file, bool force, const std::atomic<bool>& stop) const override;
+
+  Comparison result;
+};
 
 }  // namespace carom::cli

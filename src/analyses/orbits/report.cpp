@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <complex>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "cli/common.hpp"
@@ -225,6 +227,26 @@ std::string orbit_text(const System& system, const OrbitSearchResult& result,
                   result.seconds, counted(static_cast<std::uint64_t>(result.threads), "thread"));
   if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
   return text;
+}
+
+OrbitContext OrbitsOutcome::context() const {
+  return {most_hits, result.complete ? "completed" : "interrupted", "", false, proofs};
+}
+
+void OrbitsOutcome::save(const std::string& file, bool force, const std::atomic<bool>&) const {
+  write_orbits(followed(file), loaded->loaded,
+               provenance_of(loaded->options, system(), result.threads), result, proofs, most_hits,
+               force);
+}
+
+OutcomePointer open_orbits(const std::string& file) {
+  StoredOrbits stored = read_orbits(file);
+  auto outcome = std::make_shared<OrbitsOutcome>(
+      loaded_again("orbit", stored.system_toml, stored.system_name, file));
+  outcome->most_hits = stored.most_hits;
+  outcome->result = std::move(stored.result);
+  outcome->proofs = std::move(stored.proofs);
+  return outcome;
 }
 
 }  // namespace carom::cli

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 #include <vector>
 
+#include "carom/analyses/relax/archive.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 
@@ -127,6 +130,19 @@ std::string relax_text(const System& system, const RelaxResult& result, const st
                       counted(static_cast<std::uint64_t>(result.threads), "thread"));
   if (!output.empty()) text += fmt::format("archive: {}\n", output);
   return text;
+}
+
+void RelaxOutcome::save(const std::string& file, bool force, const std::atomic<bool>&) const {
+  write_equilibria(followed(file), loaded->loaded,
+                   provenance_of(loaded->options, system(), result.threads), result, force);
+}
+
+OutcomePointer open_relax(const std::string& file) {
+  StoredEquilibria stored = read_equilibria(file);
+  auto outcome = std::make_shared<RelaxOutcome>(
+      loaded_again("relax", stored.system_toml, stored.system_name, file));
+  outcome->result = std::move(stored.result);
+  return outcome;
 }
 
 }  // namespace carom::cli

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "carom/analyses/run.hpp"
 #include "carom/analyses/run/certified_archive.hpp"
@@ -205,6 +206,26 @@ int run_certified(const Options& options) {
       },
       [&] { return certified_text(loaded.system, end, task, effort, archive_name, seconds); });
   return interrupted ? stopped : done;
+}
+
+void CertifiedOutcome::save(const std::string& file, bool force, const std::atomic<bool>&) const {
+  CertifiedArchive archive(followed(file), loaded->loaded,
+                           provenance_of(loaded->options, system(), 1), task, force);
+  for (const CertifiedHit& hit : hits) archive.hit(hit);
+  archive.finish(end, effort, name_of(end.fate), end.fate != CertifiedFate::interrupted);
+}
+
+OutcomePointer open_certified(const std::string& file) {
+  StoredCertified stored = read_certified(file);
+  if (!stored.end.x.has_value())
+    throw InputError(Place{file, 0, 0, ""}, "the run was interrupted before its first state");
+  auto outcome = std::make_shared<CertifiedOutcome>(
+      loaded_again("run", stored.system_toml, stored.system_name, file));
+  outcome->task = std::move(stored.task);
+  outcome->end = std::move(stored.end);
+  outcome->effort = stored.effort;
+  outcome->hits = std::move(stored.hits);
+  return outcome;
 }
 
 }  // namespace carom::cli

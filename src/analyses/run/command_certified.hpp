@@ -1,8 +1,12 @@
 // carom run --precision certified.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "carom/certify/certified_orbit.hpp"
 #include "cli/common.hpp"
+#include "cli/outcome.hpp"
 
 namespace carom::cli {
 
@@ -24,5 +28,22 @@ std::string certified_text(const System&, const CertifiedEnd&, const CertifiedTa
                            const CertifiedEffort&, const std::string& output, double seconds);
 
 int run_certified(const Options&);
+
+struct CertifiedOutcome final : Outcome {
+  using Outcome::Outcome;
+  files::Json json() const override {
+    return certified_json(system(), end, task, effort, "", seconds, cpu_seconds);
+  }
+  std::string text() const override {
+    return certified_text(system(), end, task, effort, "", seconds);
+  }
+  void save(const std::string& file, bool force, const std::atomic<bool>& stop) const override;
+
+  CertifiedTask task;
+  CertifiedEnd end;
+  CertifiedEffort effort;
+  std::vector<CertifiedHit> hits;
+  double seconds = 0, cpu_seconds = 0;
+};
 
 }  // namespace carom::cli

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
+#include "carom/analyses/section/archive.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
@@ -90,6 +93,32 @@ std::string section_text(const System& system, const SectionResult& result, cons
   if (verbose)
     text += fmt::format("{}\ndigest {:016x}\n", decisions_text(result.decisions), result.digest);
   return output.empty() ? text : text + fmt::format("archive: {}\n", output);
+}
+
+std::string SectionOutcome::text() const {
+  OrbitLines lines;
+  lines.add(*points);
+  return section_text(system(), result, lines, "");
+}
+
+std::vector<std::string> SectionOutcome::doubts() const {
+  return doubts_of(system(), result).lines;
+}
+
+void SectionOutcome::save(const std::string& file, bool force, const std::atomic<bool>&) const {
+  SectionArchive archive(followed(file), loaded->loaded,
+                         provenance_of(loaded->options, system(), result.threads), force);
+  archive.append(*points);
+  archive.finish(result, status());
+}
+
+OutcomePointer open_section(const std::string& file) {
+  StoredSection stored = read_section(file);
+  auto outcome = std::make_shared<SectionOutcome>(
+      loaded_again("section", stored.system_toml, stored.system_name, file, stored.engine));
+  outcome->result = stored.result;
+  *outcome->points = std::move(stored.points);
+  return outcome;
 }
 
 }  // namespace carom::cli

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "carom/analyses/section.hpp"
+#include "cli/outcome.hpp"
 #include "files/json.hpp"
 
 namespace carom::cli {
@@ -33,5 +35,17 @@ files::Json section_json(const System&, const SectionResult&, const std::string&
 /// `verbose`: with the decisions and the digest.
 std::string section_text(const System&, const SectionResult&, const OrbitLines&,
                          const std::string& output, bool verbose = false);
+
+struct SectionOutcome final : Outcome {
+  using Outcome::Outcome;
+  files::Json json() const override { return section_json(system(), result, status(), ""); }
+  std::string text() const override;
+  std::vector<std::string> doubts() const override;
+  void save(const std::string& file, bool force, const std::atomic<bool>& stop) const override;
+  const char* status() const { return result.complete ? "completed" : "interrupted"; }
+
+  SectionResult result;
+  std::shared_ptr<std::vector<SectionPoint>> points = std::make_shared<std::vector<SectionPoint>>();
+};
 
 }  // namespace carom::cli

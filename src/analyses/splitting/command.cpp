@@ -259,4 +259,10 @@ int splitting(const Options& options) {
   return doubts.status(result.complete);
 }
 
+std::vector<std::string> SplittingOutcome::doubts() const {
+  std::vector<std::string> lines = doubts_of(result).lines;
+  for (const std::string& note : notes_of(result)) lines.push_back(note);
+  return lines;
+}
+
 }  // namespace carom::cli

@@ -7,6 +7,7 @@
 
 #include "carom/analyses/splitting.hpp"
 #include "cli/options.hpp"
+#include "cli/outcome.hpp"
 #include "cli/reports/doubts.hpp"
 #include "files/json.hpp"
 
@@ -22,5 +23,14 @@ files::Json splitting_json(const System&, const SplittingResult&);
 /// `verbose`: with the digest; `rows`: at most this many times in a table.
 std::string splitting_text(const System&, const SplittingResult&, bool verbose = false,
                            std::size_t rows = 12);
+
+struct SplittingOutcome final : Outcome {
+  using Outcome::Outcome;
+  files::Json json() const override { return splitting_json(system(), result); }
+  std::string text() const override { return splitting_text(system(), result); }
+  std::vector<std::string> doubts() const override;
+
+  SplittingResult result;
+};
 
 }  // namespace carom::cli

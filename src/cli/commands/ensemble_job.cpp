@@ -12,6 +12,7 @@
 #include "carom/starts/sampler.hpp"
 #include "cli/common.hpp"
 #include "files/checkpoint/rank_parts.hpp"
+#include "files/checkpoint/sweep_archive.hpp"
 #include "files/checkpoint/work_folder.hpp"
 
 namespace carom::cli {
@@ -39,19 +40,6 @@ std::vector<std::string> open_keys(const StoredEnsemble& stored, const LoadedSys
   return keys;
 }
 
-// Is it the value of the sweep's plan?
-void refuse_other_value(const ValueOfSweep& value, const StoredEnsemble& stored,
-                        const LoadedSystem& loaded) {
-  // As this build writes it: that of an earlier one may lack keys.
-  const LoadedSystem planned = read_system(value.system_toml, value.system_name);
-  const std::string differs =
-      difference(planned.resolved_toml, loaded.resolved_toml, open_keys(stored, planned));
-  if (!differs.empty())
-    throw InputError(Place{stored.file, 0, 0, ""},
-                     fmt::format("it is not value {} of the sweep: {}", value.index + 1, differs),
-                     "a sweep as carom wrote it");
-}
-
 // Loads the system that is stored, and refuses another one.
 LoadedSystem loaded_of(const StoredEnsemble& stored, const Options& options) {
   const auto refuse = [&](const std::string& what) {
@@ -69,7 +57,8 @@ LoadedSystem loaded_of(const StoredEnsemble& stored, const Options& options) {
     refuse(
         fmt::format("the system is {}, not {}: {}", options.system, stored.system_name, differs));
   if (!differs.empty()) refuse(differs);
-  if (options.of_sweep) refuse_other_value(*options.of_sweep, stored, loaded);
+  if (const auto& value = options.of_sweep)
+    files::refuse_other_value(value->index, value->system_toml, stored.system_toml, stored.file);
   System& system = loaded.system;
   system.name = stored.system_name;
   if (system.dynamics.integrator.step_chosen)

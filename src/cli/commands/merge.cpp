@@ -13,7 +13,6 @@
 #include "cli/commands/sweep.hpp"
 #include "cli/commands/sweep_plan.hpp"
 #include "cli/common.hpp"
-#include "cli/temporary_folder.hpp"
 #include "files/checkpoint/sweep_archive.hpp"
 #include "files/checkpoint/work_folder.hpp"
 
@@ -33,12 +32,9 @@ void say_what_is_missing(const TrajectoryRanges& done, const System& system) {
 
 template <class Result>
 int merge_parts(const Options& options, const std::string& output,
-                const std::vector<std::string>& files, const std::vector<std::string>& names,
-                ArchiveLock lock) {
+                const std::vector<std::string>& files, ArchiveLock lock) {
   SumOfParts<Result> sum = sum_of<Result>(files);
-  sum.merged = names;
-  if (names.empty())
-    for (const EnsemblePart& part : sum.parts) sum.merged.push_back(part.file);
+  for (const EnsemblePart& part : sum.parts) sum.merged.push_back(part.file);
   const LoadedSystem loaded = system_of(sum);
   Provenance origin = provenance_of(options, loaded.system, sum.result.threads);
   if (sum.result.lanes) origin.isa = name_of(*sum.result.lanes);
@@ -51,58 +47,47 @@ int merge_parts(const Options& options, const std::string& output,
                 context_of(options, sum.status, named_archive(options, output), sum.shard), true);
 }
 
-files::SweepPlan common_plan(const std::vector<std::string>& files) {
-  files::SweepPlan common;
-  for (const std::string& file : files) {
-    files::SweepPlan plan = files::read_sweep(file).plan;
-    std::erase_if(plan.options, [](const auto& option) { return option.first == "shard"; });
-    if (file != files.front()) refuse_another(common, plan, file);
-    common = std::move(plan);
-  }
-  return common;
-}
-
 // Parts of a sweep: value after value. The highest exit status of them.
 template <class Result>
 int merge_values(const Options& options, const std::string& output,
-                 const std::vector<std::string>& files, SweepResult& merged) {
+                 const std::vector<std::vector<std::string>>& parts, SweepResult& merged) {
   Options one = options;
   one.command = merged.plan.command;
   merged.status = "completed";
   int worst = done;
   for (std::size_t i = 0; i < merged.plan.systems.size(); ++i) {
-    const TemporaryFolder folder;
-    std::vector<std::string> parts, names;
-    for (std::size_t k = 0; k < files.size(); ++k)
-      if (files::extract_value(files[k], i, folder.file(fmt::format("{}.h5", k)))) {
-        parts.push_back(folder.file(fmt::format("{}.h5", k)));
-        names.push_back(files[k]);
-      }
     auto value = std::make_shared<ValueOfSweep>();
     value->take = [&](const files::Json& report, const std::string& doubts) {
       merged.rows.emplace_back(i, report, doubts);
     };
     one.of_sweep = value;
-    if (parts.empty()) continue;
-    worst = std::max(
-        worst, merge_parts<Result>(one, files::value_of_sweep(output, i), parts, names, nullptr));
-    files::keep_report(output, merged.plan, i, merged.rows.back().report.text());
-    if (!is_complete(files::value_of_sweep(output, i))) merged.status = "incomplete";
+    const std::string sum = files::part_of_sweep(output, i);
+    if (!parts[i].empty())
+      worst = std::max(worst, merge_parts<Result>(one, sum, parts[i], nullptr));
+    if (!is_complete(sum)) merged.status = "incomplete";
   }
-  if (merged.rows.size() < merged.plan.systems.size()) merged.status = "incomplete";
   return worst;
 }
 
 int merge_sweeps(const Options& options, const std::string& output,
                  const std::vector<std::string>& files) {
   SweepResult merged;
-  merged.plan = common_plan(files);
+  std::vector<std::vector<std::string>> parts;  // of each value
+  for (const std::string& file : files) {
+    files::StoredSweep stored = files::read_sweep(file);
+    files::SweepPlan& plan = stored.plan;
+    std::erase_if(plan.options, [](const auto& option) { return option.first == "shard"; });
+    if (file != files.front()) refuse_another(merged.plan, plan, file);
+    parts.resize(plan.systems.size());
+    for (const std::size_t i : stored.computed) parts[i].push_back(files::value_of_sweep(file, i));
+    merged.plan = std::move(plan);
+  }
   files::give_up_checkpoint(output);
   files::keep_plan(output, merged.plan);
   int worst = done;
   try {
     for_kind(merged.plan.command, [&]<class Result>(std::type_identity<Result>) {
-      worst = merge_values<Result>(options, output, files, merged);
+      worst = merge_values<Result>(options, output, parts, merged);
     });
     if (const auto error = why_nothing(merged)) throw *error;
     end_sweep(options, merged, output, {});
@@ -130,7 +115,7 @@ int merge(const Options& options) {
   if (files::is_sweep_archive(files.front())) return merge_sweeps(options, output, files);
   int status = done;
   for_kind(kind_of_ensemble(files.front()), [&]<class Result>(std::type_identity<Result>) {
-    status = merge_parts<Result>(options, output, files, {}, std::move(lock));
+    status = merge_parts<Result>(options, output, files, std::move(lock));
   });
   return status;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -14,9 +13,9 @@
 #include "cli/commands/run_shared.hpp"
 #include "cli/commands/sweep_plan.hpp"
 #include "cli/common.hpp"
+#include "cli/outcome.hpp"
 #include "cli/ranks.hpp"
 #include "cli/reports/sweep_report.hpp"
-#include "cli/temporary_folder.hpp"
 #include "files/checkpoint/rank_parts.hpp"
 #include "files/checkpoint/sweep_archive.hpp"
 #include "files/checkpoint/work_folder.hpp"
@@ -50,8 +49,8 @@ class Sweep {
   void prepare();
   void go_on(const std::string& file);
   int compute(std::size_t index, const std::string& archive, bool goes_on);
+  int take_stored(std::size_t index, const std::string& archive);
   bool has_begun(std::size_t index) const;
-  bool take_kept_report(std::size_t index);
   int compute_all();
   int show_stored();
   int finish(int status);
@@ -68,8 +67,7 @@ class Sweep {
 };
 
 /// What a rank is told to do with a value.
-constexpr const char *begin_value = "begin", *resume_value = "resume", *stop_here = "stop",
-                     *skip_value = "skip";
+constexpr const char *begin_value = "begin", *stored_value = "stored", *stop_here = "stop";
 
 void Sweep::prepare() {
   check_engine(options_);
@@ -89,15 +87,12 @@ void Sweep::go_on(const std::string& file) {
   if (!options_.output.empty() && options_.output != file_)
     throw InputError(Place{"command line", 0, 0, "--output"}, "a sweep goes on in the same archive",
                      "no -o beside --resume");
-  std::optional<files::StoredSweep> stored;
-  if (!files::has_sweep(file_)) {
-    stored = files::read_sweep(file_);
-    complete_ = stored->complete;
-    result_.plan = stored->plan;
-    before_ = stored->origins;
-  } else {
-    result_.plan = files::kept_plan(file_);
-  }
+  const bool in_parts = files::has_sweep(file_);
+  files::StoredSweep stored = files::read_sweep(file_);
+  result_.plan = std::move(stored.plan);
+  result_.status = stored.status;
+  complete_ = stored.complete;
+  if (!in_parts) before_ = stored.origins;
   if (result_.plan.command != options_.command)
     throw InputError(Place{file_, 0, 0, ""},
                      fmt::format("it is a sweep of carom {}", result_.plan.command),
@@ -109,31 +104,18 @@ void Sweep::go_on(const std::string& file) {
                        "SYSTEM and all options as before, or none of them");
     refuse_another(result_.plan, plan_of_sweep(options_), file_);
   }
-  restore_options(result_.plan, options_);
   if (complete_) return;
   lock_ = lock_output(options_, file_);
-  // Now, and not after hours of computing.
-  for (std::size_t i = 0; !stored && i < result_.plan.systems.size(); ++i)
-    files::kept_report(file_, result_.plan, i);
+  if (in_parts) files::check_parts(file_, result_.plan);  // now, and not after hours of computing
   catch_interrupts();
-  if (stored) files::unpack_sweep(file_);
+  if (!in_parts) files::unpack_sweep(file_);
 }
 
+// Commands that cannot go on begin anew with a value that was interrupted.
 bool Sweep::has_begun(std::size_t index) const {
-  const std::string value = files::value_of_sweep(file_, index);
-  return files::exists(value) || has_checkpoint(value) || !files::parts_of_ranks(value).empty();
-}
-
-// A value whose command cannot go on is done where its report is there. So is one that measured
-// nothing: its archive does not say why.
-bool Sweep::take_kept_report(std::size_t index) {
-  if (file_.empty()) return false;
-  const auto report = files::kept_report(file_, result_.plan, index);
-  if (!report) return false;
-  SweepRow row(index, Json::parse(*report, file_));
-  if (is_plain_ensemble(options_) && !row.measured_nothing()) return false;
-  result_.rows.push_back(std::move(row));
-  return true;
+  const std::string part = files::part_of_sweep(file_, index);
+  if (!is_plain_ensemble(options_)) return is_complete(part);
+  return files::exists(part) || has_checkpoint(part) || !files::parts_of_ranks(part).empty();
 }
 
 int Sweep::compute(std::size_t index, const std::string& archive, bool goes_on) {
@@ -156,72 +138,52 @@ int Sweep::compute(std::size_t index, const std::string& archive, bool goes_on) 
   return command_(one);
 }
 
+// Of an ensemble its command goes on with what is stored, or reports it by another window.
+int Sweep::take_stored(std::size_t index, const std::string& archive) {
+  if (is_plain_ensemble(options_)) return compute(index, archive, true);
+  result_.rows.emplace_back(index, *open_outcome(archive));
+  return result_.rows.back().doubts().empty() ? done : untrusted;
+}
+
 int Sweep::compute_all() {
   const std::atomic<bool>& interrupted = catch_interrupts();
   int worst = done;
   for (std::size_t i = 0; i < result_.plan.systems.size(); ++i) {
     std::string task = begin_value;
-    if (first()) {
-      if (interrupted && !ranks_)
-        task = stop_here;
-      else if (take_kept_report(i))
-        task = skip_value;
-      else if (!file_.empty() && is_plain_ensemble(options_) && has_begun(i))
-        task = resume_value;
-    }
+    if (first() && interrupted && !ranks_)
+      task = stop_here;
+    else if (first() && !file_.empty() && has_begun(i))
+      task = stored_value;
     task = tell(task);
     if (task == stop_here) return stopped;
-    if (task == skip_value) {
-      if (first() && !result_.rows.back().doubts().empty()) worst = std::max<int>(worst, untrusted);
-      continue;
-    }
-    const std::string archive = file_.empty() ? "" : files::value_of_sweep(file_, i);
-    if (first() && !file_.empty()) files::remove_report(file_, i);  // of what is gone on with
-    const int status = compute(i, archive, task == resume_value);
+    const std::string archive = file_.empty() ? "" : files::part_of_sweep(file_, i);
+    const int status = task == stored_value ? take_stored(i, archive) : compute(i, archive, false);
     if (status == bad_input || status == usage) return status;
-    const bool ended = status != stopped;
-    if (first() && !file_.empty() && !result_.rows.empty()) {
-      if (ended || is_plain_ensemble(options_)) {
-        files::keep_report(file_, result_.plan, i, result_.rows.back().report.text());
-      } else {
+    if (status == stopped) {
+      if (!file_.empty() && !is_plain_ensemble(options_)) {
         std::remove(archive.c_str());
-        result_.rows.pop_back();
+        std::erase_if(result_.rows, [&](const SweepRow& row) { return row.index == i; });
       }
+      return stopped;
     }
-    if (!ended) return stopped;
     worst = std::max(worst, status);
   }
   return worst;
 }
 
-// A complete sweep: its reports, or those that another window gives.
+// A complete sweep: its values, with the fits that another window gives.
 int Sweep::show_stored() {
-  const files::StoredSweep stored = files::read_sweep(file_);
-  const bool again = is_plain_ensemble(options_) && !options_.window.empty();
   int worst = done;
-  for (std::size_t i = 0; i < stored.reports.size(); ++i) {
-    if (!again) {
-      result_.rows.emplace_back(i, Json::parse(stored.reports[i], file_));
-      if (!result_.rows.back().doubts().empty()) worst = untrusted;
-      continue;
-    }
-    const TemporaryFolder folder;
-    const std::string archive = folder.file("value.h5");
-    if (!files::extract_value(file_, i, archive))
-      throw InputError(Place{file_, 0, 0, fmt::format("values/{}", i)}, "there is no archive",
-                       "a sweep as carom wrote it");
-    worst = std::max(worst, compute(i, archive, true));
-  }
-  result_.status = stored.status;
-  print_sweep(options_, result_, file_);
+  for (std::size_t i = 0; i < result_.plan.systems.size(); ++i)
+    worst = std::max(worst, take_stored(i, files::value_of_sweep(file_, i)));
+  if (first()) print_sweep(options_, result_, file_);
   return worst;
 }
 
 // After an error. Where nothing was computed, nothing is left.
 void Sweep::say_what_is_kept() {
   bool any = false;
-  for (std::size_t i = 0; i < result_.plan.systems.size() && !any; ++i)
-    any = has_begun(i) || files::has_report(file_, i);
+  for (std::size_t i = 0; i < result_.plan.systems.size() && !any; ++i) any = has_begun(i);
   if (!any) return files::remove_sweep(file_);
   if (!options_.hidden_archive)
     warn(fmt::format("what was computed is kept; this goes on with it: carom {} --resume {}",
@@ -242,24 +204,23 @@ int Sweep::finish(int status) {
 }
 
 int Sweep::run() {
-  constexpr const char *go = "go", *nothing = "nothing";
+  constexpr const char *go = "go", *only_shown = "only shown";
   const std::string word = word_of_first(ranks_, [&] {
     prepare();
-    return complete_ ? nothing : go;
+    return complete_ ? only_shown : go;
   });
   if (word.empty()) return bad_input;
-  if (word == nothing) return first() ? show_stored() : done;
-  if (ranks_) {
-    const std::string plan = tell(first() ? result_.plan.json().text() : "");
-    file_ = tell(file_);
-    if (!first()) result_.plan = files::SweepPlan::of(Json::parse(plan, "plan"), "plan");
-    restore_options(result_.plan, options_);
-  }
+  file_ = tell(file_);
   int status = bad_input;
   try {
+    if (!first())
+      result_.plan =
+          options_.resume.empty() ? plan_of_sweep(options_) : files::read_sweep(file_).plan;
+    restore_options(result_.plan, options_);
+    if (word == only_shown) return show_stored();
     status = compute_all();
   } catch (...) {
-    if (first() && !file_.empty()) say_what_is_kept();
+    if (word == go && first() && !file_.empty()) say_what_is_kept();
     if (ranks_) ranks_->give_up();  // the others wait for the next value
     throw;
   }
@@ -281,5 +242,29 @@ bool is_sweep(const Options& options) {
 }
 
 int sweep(const Options& options, SweptCommand command) { return Sweep(options, command).run(); }
+
+void print_sweep(const Options& options, SweepResult& result, const std::string& file) {
+  const System base = result.plan.base().system;
+  result.title = base.title.empty() ? base.name : base.title;
+  result.archive = named_archive(options, file);
+  print_report(
+      options, [&] { return sweep_json(result); }, [&] { return sweep_text(result); });
+}
+
+void keep_sweep(const Options& options, const SweepResult& result, const std::string& file,
+                const std::vector<Origin>& before) {
+  LoadedSystem base = result.plan.base();
+  if (options.command != "relax") choose_engine(options.engine, base.system);
+  Provenance origin = provenance_of(options, base.system, threads_of(options));
+  origin.before = before;
+  files::write_sweep(file, result.plan, sweep_numbers(result), origin, result.status,
+                     result.status == "completed");
+}
+
+void end_sweep(const Options& options, SweepResult& result, const std::string& file,
+               const std::vector<Origin>& before) {
+  if (!file.empty()) keep_sweep(options, result, file, before);
+  print_sweep(options, result, file);
+}
 
 }  // namespace carom::cli

@@ -87,20 +87,17 @@ void refuse_given_twice(const files::SweptKey& swept, const Options& options) {
   }
 }
 
-// A system with the keys at these values.
-LoadedSystem system_at(const Options& options, const std::vector<files::SweptKey>& keys,
-                       std::size_t index) {
+// The system of a value.
+LoadedSystem system_at(const Options& options, const files::SweepPlan& plan, std::size_t index) {
   Options one = options;
-  const std::vector<std::string> values = files::values_at(keys, index);
-  for (std::size_t k = 0; k < keys.size(); ++k)
-    one.overrides.set.emplace_back(keys[k].key, values[k]);
+  const std::vector<std::string> values = plan.at(index);
+  for (std::size_t k = 0; k < values.size(); ++k)
+    one.overrides.set.emplace_back(plan.keys[k].key, values[k]);
   try {
     return system_of_command(one);
   } catch (const InputError& error) {
-    std::string which;
-    for (std::size_t k = 0; k < keys.size(); ++k)
-      which += fmt::format("{}{} = {}", k == 0 ? "" : ", ", keys[k].key, values[k]);
-    throw InputError(error.place(), fmt::format("{} (--sweep: {})", error.problem(), which),
+    throw InputError(error.place(),
+                     fmt::format("{} (--sweep: {})", error.problem(), plan.named(index)),
                      error.expected(), error.nearest());
   }
 }
@@ -112,8 +109,7 @@ void refuse_idle_integrator(const files::SweptKey& swept, const System& system) 
                      "a system with forces, or --engine steps");
 }
 
-}  // namespace
-
+// The keys that --sweep gives.
 std::vector<files::SweptKey> swept_keys(const Options& options) {
   std::vector<files::SweptKey> keys;
   for (const std::string& typed : options.sweep) {
@@ -128,19 +124,21 @@ std::vector<files::SweptKey> swept_keys(const Options& options) {
   if (keys.size() > 2)
     throw InputError(place_of(keys[2].key), "three keys are too many",
                      "one key, or two of a plane");
-  if (files::points_of(keys) > files::most_swept)
-    throw InputError(place_of(keys[0].key),
-                     fmt::format("{} points are too many", files::points_of(keys)),
-                     fmt::format("at most {}", files::most_swept));
   return keys;
 }
+
+}  // namespace
 
 files::SweepPlan plan_of_sweep(const Options& options) {
   files::SweepPlan plan;
   plan.command = options.command;
   plan.keys = swept_keys(options);
-  for (std::size_t i = 0; i < files::points_of(plan.keys); ++i) {
-    const LoadedSystem loaded = system_at(options, plan.keys, i);
+  if (plan.points() > files::most_swept)
+    throw InputError(place_of(plan.keys[0].key),
+                     fmt::format("{} points are too many", plan.points()),
+                     fmt::format("at most {}", files::most_swept));
+  for (std::size_t i = 0; i < plan.points(); ++i) {
+    const LoadedSystem loaded = system_at(options, plan, i);
     if (i == 0)
       for (const files::SweptKey& swept : plan.keys) refuse_idle_integrator(swept, loaded.system);
     plan.systems.push_back(loaded.resolved_toml);

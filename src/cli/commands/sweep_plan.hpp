@@ -4,12 +4,10 @@
 #include <vector>
 
 #include "cli/commands/sweep.hpp"
-#include "files/checkpoint/sweep_files.hpp"
+#include "files/checkpoint/sweep_archive.hpp"
 
 namespace carom::cli {
 
-/// The keys that --sweep gives. Throws InputError for one that means nothing to the command.
-std::vector<files::SweptKey> swept_keys(const Options&);
 /// The plan of the options. Reads the system of every value: throws InputError for one that is bad
 /// input, and for a key that means nothing to the command.
 files::SweepPlan plan_of_sweep(const Options&);

@@ -152,14 +152,6 @@ std::string shown_value(const std::string& text) {
   return text.size() <= longest ? text : fmt::format("{:.6g}", ExactNumber(text).to_double());
 }
 
-std::string named(const files::SweepPlan& plan, std::size_t index) {
-  const std::vector<std::string> values = plan.at(index);
-  std::string text;
-  for (std::size_t k = 0; k < values.size(); ++k)
-    text += fmt::format("{}{} = {}", k == 0 ? "" : ", ", plan.keys[k].key, values[k]);
-  return text;
-}
-
 bool sweeps(const files::SweepPlan& plan, const std::string& key) {
   return std::any_of(plan.keys.begin(), plan.keys.end(),
                      [&](const files::SweptKey& swept) { return swept.key == key; });
@@ -229,7 +221,7 @@ std::vector<Reason> reasons_of(const SweepResult& result) {
       if (same != all.end())
         ++same->rows;
       else
-        all.push_back({text, named(result.plan, row.index), 1});
+        all.push_back({text, result.plan.named(row.index), 1});
     }
   return all;
 }
@@ -244,6 +236,12 @@ std::string reasons(const SweepResult& result) {
 }
 
 }  // namespace
+
+SweepRow::SweepRow(std::size_t row, const Outcome& outcome) : index(row), report(outcome.json()) {
+  std::string text;
+  for (const std::string& line : outcome.doubts()) text += line + "\n";
+  if (!text.empty()) report.set("doubts", text);
+}
 
 std::string SweepRow::doubts() const {
   const Json* found = report.find("doubts");
@@ -306,7 +304,7 @@ std::vector<files::SweepNumbers> sweep_numbers(const SweepResult& result) {
   const std::vector<SweepColumn> columns = sweep_table(result.plan, result.rows);
   for (std::size_t c = result.plan.keys.size(); c < columns.size(); ++c) {
     if (!columns[c].texts.empty()) continue;
-    files::SweepNumbers made{columns[c].name, "As in the reports; NaN: none",
+    files::SweepNumbers made{columns[c].name,
                              std::vector<double>(result.plan.systems.size(), none)};
     for (std::size_t i = 0; i < result.rows.size(); ++i)
       made.values[result.rows[i].index] = columns[c].numbers[i];
@@ -347,7 +345,7 @@ std::string sweep_text(const SweepResult& result) {
   std::string text, after;
   for (const SweepRow& row : result.rows)
     for (const std::string& doubt : lines_of(row.doubts()))
-      text += folded(fmt::format("{}: {}", named(result.plan, row.index), doubt)) + "\n";
+      text += folded(fmt::format("{}: {}", result.plan.named(row.index), doubt)) + "\n";
   text += head(result);
   if (result.status != "completed")
     text += fmt::format("({}: {} of {})\n", result.status, result.rows.size(),

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "carom/base/error.hpp"
+#include "cli/outcome.hpp"
 #include "files/checkpoint/sweep_archive.hpp"
 #include "files/json.hpp"
 
@@ -19,6 +20,7 @@ struct SweepRow {
       : index(row), report(std::move(printed)) {
     if (!text.empty()) report.set("doubts", text);
   }
+  SweepRow(std::size_t row, const Outcome& outcome);
   std::size_t index;
   files::Json report;  ///< as the command prints it with --json, with `doubts` if there are any
   /// Why it cannot be trusted, a line each; "" if it can.

@@ -5,6 +5,7 @@
 
 #include "carom/base/error.hpp"
 #include "files/checkpoint/ensemble_columns.hpp"
+#include "files/hdf5/stored_rows.hpp"
 
 namespace carom::files {
 
@@ -27,7 +28,7 @@ void check_common(const StoredEnsemble& stored, const EnsembleResult& result,
 // A finished ensemble has a record of each particle that it counts; one that is under way keeps
 // them elsewhere.
 void check_rows(const StoredEnsemble& stored, std::uint64_t particles) {
-  const hdf5::Handle file(H5Fopen(stored.file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  const hdf5::Handle file = open_finished(stored.file);
   if (!file || !hdf5::has(file.get(), "trajectories")) return;
   if (RecordReader(stored.file).rows() != particles)
     damaged(stored.file, "'/trajectories' has not one row a particle of '/fates'");

@@ -30,8 +30,7 @@ void name_record_columns(const ArchiveFile& file, const System& system) {
   name("regularity", {"linear", "chaotic", "undecided"});
 }
 
-RecordReader::RecordReader(const std::string& file)
-    : name_(file), file_(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose) {
+RecordReader::RecordReader(const std::string& file) : name_(file), file_(open_finished(file)) {
   const Handle group(H5Gopen2(file_.get(), "trajectories", H5P_DEFAULT), H5Gclose);
   if (!group) throw InputError(Place{file, 0, 0, ""}, "it holds no records of trajectories");
   rows_.emplace(group.get(), file);

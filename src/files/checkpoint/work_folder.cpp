@@ -16,7 +16,7 @@
 #include "carom/base/error.hpp"
 #include "carom/files/archive.hpp"
 #include "files/checkpoint/rank_parts.hpp"
-#include "files/checkpoint/sweep_files.hpp"
+#include "files/checkpoint/sweep_archive.hpp"
 #include "files/platform.hpp"
 
 namespace carom {

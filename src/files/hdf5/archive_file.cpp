@@ -6,6 +6,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -17,7 +18,7 @@
 #include "carom_version.hpp"
 #include "files/checkpoint/ensemble_files.hpp"
 #include "files/checkpoint/rank_parts.hpp"
-#include "files/checkpoint/sweep_files.hpp"
+#include "files/checkpoint/sweep_archive.hpp"
 #include "files/hdf5/checksums.hpp"
 #include "files/hdf5/stored_rows.hpp"
 #include "files/platform.hpp"
@@ -99,7 +100,7 @@ void refuse_existing(const std::string& file, bool force) {
   if (force || (!has_checkpoint(file) && parts_of_ranks(file).empty() && !has_sweep(file))) return;
   std::string command = "carom";
   try {
-    command += " " + (has_sweep(file) ? kept_plan(file).command : kind_of_ensemble(file));
+    command += " " + (has_sweep(file) ? read_sweep(file).plan.command : kind_of_ensemble(file));
   } catch (const InputError&) {  // it is damaged: --resume says in what
   }
   throw InputError(
@@ -271,10 +272,16 @@ void ArchiveFile::keep_as(const std::string& target) {
 hdf5::Handle files::open_archive(const std::string& name, const std::string& problem,
                                  const std::string& expected) {
   const Place place{name, 0, 0, ""};
-  if (!exists(name)) throw InputError(place, "there is no such file");
+  // "FILE/values/3": a value of a sweep, which is an archive by itself.
+  const std::size_t end =
+      exists(name) ? name.size() : std::min(name.rfind("/values/"), name.size());
+  const std::string path = name.substr(0, end);
+  if (!exists(path)) throw InputError(place, "there is no such file");
   Handle file;  // HDF5 would wait for a pipe
-  if (!is_no_file(name))
-    file = Handle(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!is_no_file(path))
+    file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (file && end < name.size())
+    file = Handle(H5Gopen2(file.get(), name.c_str() + end, H5P_DEFAULT), H5Gclose);
   if (!file) throw InputError(place, problem, expected);
   if (hdf5::read_integer_attribute(file.get(), "schema", name) != archive_schema)
     throw InputError(place, "the archive has another schema",

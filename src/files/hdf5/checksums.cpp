@@ -18,7 +18,7 @@ namespace carom::files::hdf5 {
 
 namespace {
 
-constexpr const char* group_name = "/provenance";
+constexpr const char* group_name = "provenance";
 constexpr const char* list_name = "checksums";
 constexpr std::string_view list_path = "/provenance@checksums";
 constexpr std::size_t sum_length = 8;  // digits of a sum
@@ -120,6 +120,9 @@ bool sum_attribute(hid_t attribute, hid_t type, Entry& entry) {
   return true;
 }
 
+// A path as the archive has it, from its own root on: that may be a group of a file.
+const char* within(const std::string& path) { return path == "/" ? "." : path.c_str() + 1; }
+
 // "/collisions/t" is a dataset, "/collisions/t@units" one of its attributes. `expected`: what its
 // type and number must be before any memory is taken. Its bytes are read where `with_sum` is set;
 // an entry without a type is none of Carom's.
@@ -132,7 +135,7 @@ bool read_entry(hid_t file, const std::string& path, const Entry* expected, bool
   };
   const std::size_t at = path.find('@');
   if (at == std::string::npos) {
-    const Handle dataset(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
+    const Handle dataset(H5Dopen2(file, within(path), H5P_DEFAULT), H5Dclose);
     if (!dataset) return false;
     const Handle type(H5Dget_type(dataset.get()), H5Tclose),
         space(H5Dget_space(dataset.get()), H5Sclose);
@@ -140,7 +143,7 @@ bool read_entry(hid_t file, const std::string& path, const Entry* expected, bool
     if (is_foreign(dataset.get())) entry.type.clear();
     return !wanted() || sum_dataset(dataset.get(), type.get(), entry);
   }
-  const Handle attribute(H5Aopen_by_name(file, path.substr(0, at).c_str(),
+  const Handle attribute(H5Aopen_by_name(file, within(path.substr(0, at)),
                                          path.substr(at + 1).c_str(), H5P_DEFAULT, H5P_DEFAULT),
                          H5Aclose);
   if (!attribute) return false;
@@ -217,7 +220,7 @@ class Sizes {
  public:
   void add(hid_t file, const std::string& path, const Entry& entry) {
     if (path.find('@') != std::string::npos || entry.count <= few_rows) return;
-    const Handle dataset(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
+    const Handle dataset(H5Dopen2(file, within(path), H5P_DEFAULT), H5Dclose);
     const Handle type(dataset ? H5Dget_type(dataset.get()) : -1, H5Tclose);
     if (!type) return;
     const std::uint64_t bytes = H5Dget_storage_size(dataset.get());
@@ -305,7 +308,7 @@ void verify(hid_t file, const std::string& name) {
   constexpr const char* changed = "was changed: its checksum is another";
   constexpr const char* unreadable = "is missing or not readable";
   const Handle group(H5Gopen2(file, group_name, H5P_DEFAULT), H5Gclose);
-  if (!group) refuse(group_name, unreadable);
+  if (!group) refuse("/provenance", unreadable);
   if (H5Aexists(group.get(), list_name) <= 0)
     refuse(list_path, unreadable, "an archive that this version of carom wrote");
   const std::string list = read_string_attribute(group.get(), list_name, name);
@@ -322,7 +325,7 @@ void verify(hid_t file, const std::string& name) {
   }
   // All that can be reached: other readers list the groups, and do not ask for names they know.
   Listing listing;
-  const Handle root(H5Gopen2(file, "/", H5P_DEFAULT), H5Gclose);
+  const Handle root(H5Gopen2(file, ".", H5P_DEFAULT), H5Gclose);
   if (!root || !listing.add(root.get(), "")) refuse("/", "has a damaged index of links");
   Sizes sizes;
   for (const auto& [path, stored] : entries) {
