@@ -82,7 +82,9 @@ DiscContacts::DiscContacts(const Table& table, const Dynamics& dynamics, Bodies&
       flights_(flights),
       watch_(watch),
       interrupt_(interrupt),
-      contacts_(table.lattice ? &*table.lattice : nullptr) {}
+      contacts_(table.lattice ? &*table.lattice : nullptr) {
+  flights_.keep_to_cells();
+}
 
 void DiscContacts::check(const Body& b) const {
   if (std::find(radii_.begin(), radii_.end(), b.particle.radius) == radii_.end())

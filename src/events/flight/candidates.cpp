@@ -19,24 +19,6 @@ using base::at;
 
 }  // namespace
 
-Origin PieceTable::origin_of(const Flight& f, int offset) const {
-  Origin o{f.start,
-           {f.start_error, norm_1(f.velocity), std::fabs(f.omega), options.filter_inflation}};
-  if (!cells || !(displaced || (f.cell.first | f.cell.second) != 0)) return o;
-  const Lattice& l = *table.lattice;
-  const Cell c{f.cell.first + offsets[at(offset)].first,
-               f.cell.second + offsets[at(offset)].second};
-  o.point = l.seen_from(c, f.start);
-  if (c == Cell{}) return o;
-  // The start less one multiple, at most |start| + size, and the end; |start| is at most the end
-  // and size.
-  const double m = std::fabs(static_cast<double>(c.first)),
-               n = std::fabs(static_cast<double>(c.second));
-  const double size = m * norm_1(l.first) + n * norm_1(l.second);
-  o.scale.delta += unit_roundoff * 2.1 * (size + norm_1(o.point));
-  return o;
-}
-
 Crossing PieceTable::crossing_of(const Flight& f, int piece, const Origin& o, bool on_wall) const {
   const PreparedCurve& w = *data[at(piece)].shape;
   Crossing c;

@@ -136,25 +136,19 @@ inline constexpr double least_square = 0x1p-900;
   return true;
 }
 
+[[gnu::always_inline]] inline bool HitFinder::next_in_convex(const Flight& f, Ahead& ahead,
+                                                             DecisionCounts& counts) const {
+  if (!t_.convex || f.start_previous >= 0) [[unlikely]]
+    return false;  // from a joint: by algebra
+  const bool found = f.omega == 0.0 ? line_in_enclosure(f, ahead)
+                                    : t_.without_ellipses && circle_in_enclosure(f, ahead);
+  if (found) ++counts.filter;
+  return found;
+}
+
 [[gnu::always_inline]] inline void HitFinder::next(const Flight& flight, Ahead& ahead,
                                                    DecisionCounts& counts) {
-  if (t_.enclosure.size() > 0) {
-    if (flight.start_previous < 0 &&
-        (flight.omega == 0.0 ? line_in_enclosure(flight, ahead)
-                             : t_.without_ellipses && circle_in_enclosure(flight, ahead))) {
-      ++counts.filter;
-      return;
-    }
-  } else if (t_.grid) {
-    return next_in_grid(flight, ahead, counts);
-  } else if (flight.omega == 0.0 && t_.enclosure_size > 0) {
-    if (t_.cells) look_from(flight);
-    if (filtered_enclosed(flight, ahead)) {
-      ++counts.filter;
-      return;
-    }
-  }
-  next_of_all(flight, ahead, counts);
+  if (!next_in_convex(flight, ahead, counts)) next_in_any(flight, ahead, counts);
 }
 
 }  // namespace carom::events

@@ -9,7 +9,11 @@ using geometry::Vector;
 
 FreeFlights::FreeFlights(const PieceTable& seen, const Table& inside, const ForceRegions& regions,
                          Bodies& bodies)
-    : finder_(seen), bodies_(bodies), regions_(regions), inside_(inside) {
+    : finder_(seen),
+      over_edges_(seen.discs_within && !seen.grid && !regions.by_range()),
+      bodies_(bodies),
+      regions_(regions),
+      inside_(inside) {
   const std::vector<Wall>& walls = seen.table.walls;
   for (std::size_t i = 0; i < walls.size(); ++i) {
     const Wall& w = walls[i];

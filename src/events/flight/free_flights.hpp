@@ -43,6 +43,10 @@ class FreeFlights {
   /// Is the point strictly inside (exact)?
   bool contains(geometry::Vector point);
 
+  /// From now on a flight is not taken over an edge of its cell before it gets there: for bodies
+  /// that meet others.
+  void keep_to_cells() { over_edges_ = false; }
+
   const PieceTable& pieces() const { return finder_.pieces(); }
   DecisionCounts& counts() { return counts_; }
   const DecisionCounts& counts() const { return counts_; }
@@ -55,6 +59,7 @@ class FreeFlights {
                const PieceTable::Landing& landing);
 
   HitFinder finder_;
+  bool over_edges_;
   Bodies& bodies_;
   const ForceRegions& regions_;
   std::vector<int> corners_;  ///< order n of the corner at each wall's start, 0: none
@@ -64,7 +69,12 @@ class FreeFlights {
 };
 
 [[gnu::always_inline]] inline void FreeFlights::predict(int index, Body& b) {
-  finder_.next(b.flight, b.ahead, counts_);
+  if (!finder_.next_in_convex(b.flight, b.ahead, counts_)) {
+    if (over_edges_)
+      finder_.next_over_edges(b.flight, b.ahead, counts_);
+    else
+      finder_.next_in_any(b.flight, b.ahead, counts_);
+  }
   schedule(index, b);
 }
 

@@ -64,8 +64,8 @@ Sign PieceTable::exactly_inward(int wall, double u, Vector v, DecisionCounts& co
 }
 
 bool PieceTable::surely_inside(Vector point) const {
-  if (enclosure.size() < 3) return false;
-  for (int i = 0; i < enclosure_size; ++i) {
+  if (!convex || enclosure.size() < 3) return false;
+  for (int i = 0; i < enclosure.size(); ++i) {
     const PreparedCurve& w = curves[at(i)];
     const Vector chord = w.to - w.from, e = point - w.from;
     // Each coordinate of e and chord errs by enclosure_rounding and its own last digit; products
@@ -107,6 +107,7 @@ void PieceTable::find_start(Flight& f) const {
   if (f.wall < 0) return;
   if (!(f.cell == Cell{})) {
     f.start_piece = -1;
+    if (!displaced) return;
     const auto [first, end] = shared_->images.equal_range(f.wall);
     for (auto image = first; image != end; ++image) {
       const Cell o = offsets[at(data[at(image->second)].offset)];
@@ -134,11 +135,7 @@ void PieceTable::begin(Flight& f) const {
 bool PieceTable::in_cell(const Flight& f) const { return edge_crossed_at_start(f) < 0; }
 
 void PieceTable::cross(Flight& f, const Ahead& ahead) const {
-  const auto& edges = table.lattice->edges;
-  const Cell beyond = edges[at(ahead.piece - first_edge)].beyond;
-  f.cell.first += beyond.first;
-  f.cell.second += beyond.second;
-  f.entry = shared_->opposite[at(ahead.piece - first_edge)];
+  cross_edge(f, ahead.piece);
   find_start(f);
 }
 

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "events/flight/crossing.hpp"
 #include "events/flight/flight.hpp"
 #include "events/flight/piece_table.hpp"
 
@@ -32,6 +33,13 @@ class HitFinder {
     next(flight, ahead, counts);
     return ahead;
   }
+  /// The first half of this: in a convex table with nothing in it, where the filter can tell.
+  bool next_in_convex(const Flight& flight, Ahead& ahead, DecisionCounts& counts) const;
+  /// The other half.
+  void next_in_any(const Flight& flight, Ahead& ahead, DecisionCounts& counts);
+  /// That where discs stand in a lattice's cell and touch none of its edges: a straight flight is
+  /// taken over some edges at once.
+  void next_over_edges(Flight& flight, Ahead& ahead, DecisionCounts& counts);
 
  private:
   /// Sees the walls from the flight's start, in its cell. Number by number: a 16-byte copy of two
@@ -65,11 +73,13 @@ class HitFinder {
   Ahead exact_next(const Flight& flight, const std::vector<int>& pieces) const;
 
   // Convex tables (enclosed_hit.hpp and .cpp).
-  bool filtered_enclosed(const Flight& flight, Ahead& ahead) const;
+  bool over_edges(Flight& flight, Ahead& ahead, DecisionCounts& counts) const;
+  bool filtered_among_discs(const Flight& flight, Ahead& ahead) const;
   bool line_in_enclosure(const Flight& flight, Ahead& ahead) const;
   bool circle_in_enclosure(const Flight& flight, Ahead& ahead) const;
-  int exit_of_enclosure(const Flight& flight, geometry::Vector origin,
-                        const geometry::FlightScale& scale) const;
+  Sign meets_one_disc(const Flight& flight, const Origin& origin, int& met, Quotient& at) const;
+  int exit_of_enclosure(const Flight& flight, const Origin& origin) const;
+  static bool put(int piece, Ahead::Kind kind, const Quotient& at, Ahead& ahead);
 
   // Tables of many walls (grid_hit.cpp).
   void next_in_grid(const Flight& flight, Ahead& ahead, DecisionCounts& counts);

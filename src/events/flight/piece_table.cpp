@@ -274,9 +274,15 @@ void PieceTable::Preparation::find_enclosure(bool complement) {
         exact->corner(loop[k], p.next).turn < 0)
       return;
   }
+  if (loop.size() > Enclosure::most) return;
   made_.enclosure_first = loop.front();
-  made_.enclosure_size = static_cast<int>(loop.size());
+  for (const int i : loop) {
+    const PreparedCurve& w = *data[at(i)].shape;
+    const bool bent = w.kind != CurveKind::segment;
+    made_.enclosure.add(w.from, bent ? Vector{} : w.tangent, w.length, bent);
+  }
   discs = std::move(others);
+  made_.convex = discs.empty() && !made_.cells;
   made_.discs_within = made_.cells;
   for (const int disc : discs)
     for (const int edge : loop) {
@@ -286,15 +292,11 @@ void PieceTable::Preparation::find_enclosure(bool complement) {
       const double gap = geometry::cross(e.tangent, w.centre - e.from) - std::sqrt(w.r2);
       made_.discs_within &= gap > 32.0 * unit_roundoff * (2.0 * w.extent + 2.0 * norm_1(e.from));
     }
-  if (!discs.empty() || made_.cells || made_.enclosure_size > Enclosure::most) return;
-  // The walls alone, and in their order.
+  if (!made_.convex) return;
   Box box = bounding_box(table_.walls.front().curve);
   made_.without_ellipses = true;
-  for (int i = 0; i < made_.enclosure_size; ++i) {
-    const PreparedCurve& w = curves[at(i)];
-    const bool bent = w.kind != CurveKind::segment;
-    made_.enclosure.add(w.from, bent ? Vector{} : w.tangent, w.length, bent);
-    made_.without_ellipses &= w.kind != CurveKind::ellipse;
+  for (const int i : loop) {
+    made_.without_ellipses &= data[at(i)].kind != CurveKind::ellipse;
     box = hull(box, bounding_box(table_.walls[at(i)].curve));
   }
   made_.enclosure.set_diameter(1.01 * norm_1(box.high - box.low));

@@ -14,6 +14,7 @@
 #include "carom/events/decisions.hpp"
 #include "carom/geometry/exact_flight.hpp"
 #include "carom/table/table.hpp"
+#include "events/flight/crossing.hpp"
 #include "events/flight/enclosure.hpp"
 #include "events/flight/flight.hpp"
 #include "events/flight/wall_grid.hpp"
@@ -44,6 +45,8 @@ struct PieceTable {
   bool in_cell(const Flight& flight) const;
   /// Follows the flight over the edge that `ahead` names.
   void cross(Flight& flight, const Ahead& ahead) const;
+  /// The same over an edge (piece), for a particle that leaves the wall it was on behind.
+  void cross_edge(Flight& flight, int edge) const;
 
   // Ends of flights.
   /// Parameter on the wall where the flight meets it, and the wall's own cell.
@@ -150,10 +153,11 @@ struct PieceTable {
   const geometry::ExactBoundary* exact = nullptr;   ///< the pieces for the exact stage
 
   // Convex tables.
-  int enclosure_first = 0, enclosure_size = 0;  ///< pieces of a loop around `discs`; size 0: none
+  Enclosure enclosure;      ///< a convex loop around `discs`, or empty
+  int enclosure_first = 0;  ///< its first piece
   std::span<const int> discs;
-  Enclosure enclosure;              ///< the walls of a convex table with nothing in it, else empty
-  double enclosure_rounding = 0.0;  ///< error of a joint's distance in it
+  bool convex = false;              ///< all walls are the enclosure: there is nothing in it
+  double enclosure_rounding = 0.0;  ///< error of a joint's distance in it, if so
   bool without_ellipses = false;
   bool discs_within = false;  ///< no disc touches an edge: a particle on a disc is in its cell
 
@@ -189,6 +193,33 @@ struct PieceTable {
 
   std::shared_ptr<const Shared> shared_;
 };
+
+[[gnu::always_inline]] inline Origin PieceTable::origin_of(const Flight& f, int offset) const {
+  using geometry::unit_roundoff;
+  Origin o{f.start,
+           {f.start_error, norm_1(f.velocity), std::fabs(f.omega), options.filter_inflation}};
+  if (!cells || !(displaced || (f.cell.first | f.cell.second) != 0)) return o;
+  const geometry::Lattice& l = *table.lattice;
+  const geometry::Cell by = offsets[static_cast<std::size_t>(offset)];
+  const geometry::Cell c{f.cell.first + by.first, f.cell.second + by.second};
+  o.point = l.seen_from(c, f.start);
+  if (c == geometry::Cell{}) return o;
+  // The start less one multiple, at most |start| + size, and the end; |start| is at most the end
+  // and size.
+  const double m = std::fabs(static_cast<double>(c.first)),
+               n = std::fabs(static_cast<double>(c.second));
+  const double size = m * norm_1(l.first) + n * norm_1(l.second);
+  o.scale.delta += unit_roundoff * 2.1 * (size + norm_1(o.point));
+  return o;
+}
+
+[[gnu::always_inline]] inline void PieceTable::cross_edge(Flight& f, int edge) const {
+  const auto number = static_cast<std::size_t>(edge - first_edge);
+  const geometry::Cell beyond = table.lattice->edges[number].beyond;
+  f.cell.first += beyond.first;
+  f.cell.second += beyond.second;
+  f.entry = shared_->opposite[number];
+}
 
 [[gnu::always_inline]] inline void PieceTable::begin_on_wall(Flight& f, int wall,
                                                              const geometry::PreparedCurve& w,
