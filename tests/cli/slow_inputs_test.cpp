@@ -15,10 +15,11 @@ void write(const Shell& shell, const std::string& text) {
 
 // A second after the signal every program has ended: after two it is killed. The shell's status of
 // a program that a signal ended is 128 + the signal.
-int status_when_terminated(const Shell& shell, const std::string& arguments) {
+int status_when_terminated(const Shell& shell, const std::string& arguments,
+                           const std::string& when = "until_listening") {
   const Outcome o = shell(
-      "$carom " + arguments +
-      " --quiet & pid=$!; sleep 1.5; kill -0 $pid || echo ended-too-soon; kill -TERM $pid; n=0; "
+      "$carom " + arguments + " --quiet & pid=$!; " + when +
+      "; sleep 0.5; kill -0 $pid || echo ended-too-soon; kill -TERM $pid; n=0; "
       "while kill -0 $pid && [ $n -lt 100 ]; do sleep 0.1; n=$((n + 1)); done 2>/dev/null; kill -9 "
       "$pid; wait $pid");
   EXPECT_EQ(o.out.find("ended-too-soon"), std::string::npos) << arguments << o.err;
@@ -72,7 +73,7 @@ TEST(SlowInputs, EndByASignalBeforeThereIsAnArchive) {
   const Shell shell;
   // No arrangement is found, and many draws are needed to know it.
   write(shell, "[table]\nshape = \"random-discs\"\nside = 100\nradius = 0.4\ncount = 12500\n");
-  EXPECT_EQ(status_when_terminated(shell, "run ./slow.toml -o a.h5"), 128 + 15);
+  EXPECT_EQ(status_when_terminated(shell, "run ./slow.toml -o a.h5", "sleep 0.5"), 128 + 15);
   EXPECT_FALSE(shell.exists("a.h5"));
 }
 
