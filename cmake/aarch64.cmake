@@ -14,5 +14,6 @@ set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
 set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64-static -L ${CAROM_ROOT})
 # CMake asks HDF5's own compiler for these, which does not run here.
 set(HDF5_C_LIBRARY_hdf5 ${CAROM_ROOT}/usr/lib/aarch64-linux-gnu/hdf5/serial/libhdf5.so)
+set(HDF5_C_COMPILER_EXECUTABLE false)
 set(HDF5_C_INCLUDE_DIR ${CAROM_ROOT}/usr/include/hdf5/serial)
 file(GLOB Python_INCLUDE_DIR ${CAROM_ROOT}/usr/include/python3.[0-9]*)

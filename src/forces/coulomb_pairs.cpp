@@ -37,6 +37,13 @@ using Lanes [[gnu::vector_size(lanes * sizeof(double))]] = double;
   return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7]));
 }
 
+// The passes of the loop that follows are independent of each other. (Clang finds out by itself.)
+#if defined(__clang__)
+#define CAROM_INDEPENDENT
+#else
+#define CAROM_INDEPENDENT _Pragma("GCC ivdep")
+#endif
+
 struct One {
   double x, y, charge;  ///< the latter times the strength
 };
@@ -45,7 +52,7 @@ struct One {
                                         const double* __restrict y, const double* __restrict charge,
                                         double* __restrict force_x, double* __restrict force_y,
                                         double* __restrict pull_x, double* __restrict pull_y) {
-#pragma GCC ivdep
+  CAROM_INDEPENDENT
   for (std::size_t j = 0; j < partners; ++j) {
     const double dx = one.x - x[j], dy = one.y - y[j];
     const double square = dx * dx + dy * dy;
@@ -77,7 +84,7 @@ struct One {
     const One one{a.x[i], a.y[i], strength * a.charge[i]};
     const double *x = a.x + next, *y = a.y + next, *charge = a.charge + next;
     double* __restrict const energy = a.pull_x;
-#pragma GCC ivdep
+    CAROM_INDEPENDENT
     for (std::size_t j = 0; j < partners; ++j) {
       const double dx = one.x - x[j], dy = one.y - y[j];
       energy[j] = (one.charge * charge[j]) / std::sqrt(dx * dx + dy * dy);
@@ -87,7 +94,7 @@ struct One {
   return all;
 }
 
-#if defined(__x86_64__) && defined(__GNUC__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 [[gnu::target("avx2")]] void sum_pairs_avx2(double strength, const Arrays& a) {
   sum_pairs(strength, a);
 }
@@ -112,7 +119,7 @@ struct Sums {
 };
 const Sums& widest() {
   static const Sums found = [] {
-#if defined(__x86_64__) && defined(__GNUC__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
     if (__builtin_cpu_supports("avx512f")) return Sums{sum_pairs_avx512, sum_energies_avx512};
     if (__builtin_cpu_supports("avx2")) return Sums{sum_pairs_avx2, sum_energies_avx2};
 #endif

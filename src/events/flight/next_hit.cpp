@@ -60,7 +60,7 @@ struct Meeting {
                                                 double omega, const FlightScale& s) {
   const Feet feet = feet_of_centre(w, origin, v, omega, s);
   if ((feet.first < -feet.bound) | (feet.last < -feet.bound)) return Sign::negative;
-  return (feet.first > feet.bound) & (feet.last > feet.bound) ? Sign::positive : Sign::undecided;
+  return ((feet.first > feet.bound) & (feet.last > feet.bound)) ? Sign::positive : Sign::undecided;
 }
 
 /// Without field: is the rising crossing ahead (kappa > 0)?
