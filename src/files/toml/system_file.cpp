@@ -134,7 +134,7 @@ void note_changes(const SystemOverrides& overrides, Value& root) {
     if (path == "title") return;
     const bool again =
         std::any_of(overrides.set.begin() + static_cast<std::ptrdiff_t>(i) + 1, overrides.set.end(),
-                    [&path = path](const auto& later) { return later.first == path; });
+                    [&key = path](const auto& later) { return later.first == key; });
     const std::string section = path.substr(0, path.find('.'));
     if (again || section == "run" || section == "section" || section == "initial") continue;
     const std::string change =
