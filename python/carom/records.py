@@ -4,12 +4,12 @@ import html
 import json
 import os
 import tempfile
-from typing import Any, Callable
+from typing import Any
 
 import numpy
 
 from . import _carom
-from .errors import InputError, printable
+from .errors import printable
 
 
 class Record:
