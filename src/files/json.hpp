@@ -41,15 +41,9 @@ class Json {
   /// Adds an element to an array.
   Json& push(Json value);
 
-  /// Reads what text() wrote: numbers keep their digits. `name`: where the text comes from, for
-  /// messages. Throws InputError.
-  static Json parse(std::string_view text, const std::string& name);
   /// The value of a key, of an array's element ("0", from the end "-1"), or of a path of both:
   /// "survival.-1.p"; null if there is none.
   const Json* find(std::string_view path) const;
-  /// Elements of an array.
-  std::size_t size() const { return members_.size(); }
-  const Json& operator[](std::size_t index) const { return members_[index].second; }
   std::optional<double> number() const;       ///< of a number, or of one that is kept as a text
   std::optional<std::string> string() const;  ///< of a text
   bool is_true() const { return kind_ == Kind::scalar && text_ == "true"; }
@@ -58,7 +52,6 @@ class Json {
   std::string text() const;
 
  private:
-  class Parser;
   enum class Kind { scalar, object, array };
   explicit Json(Kind kind) : kind_(kind) {}
   void set_integer(bool negative, std::uint64_t size);
