@@ -29,7 +29,7 @@ def test_stubs_say_what_the_compiled_module_has():
             declared[node.name] = [one.arg for one in node.args.args]
         elif isinstance(node, ast.ClassDef):
             classes[node.name] = {
-                one.name: (one.args, bool(one.decorator_list)) for one in node.body
+                one.name: (one.args, bool(one.decorator_list)) for one in node.body if isinstance(one, ast.FunctionDef)
             }
         elif isinstance(node, ast.AnnAssign):
             declared[node.target.id] = None
