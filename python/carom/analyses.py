@@ -147,15 +147,14 @@ def orbits(result, ax=None, most=12):
     larger multiplier; with `ax` all in one. Of families one member, dashed. Of a lattice all cells that
     an orbit crosses."""
     shown = result.json["orbits"][:most]
-    if ax is not None or len(shown) < 2:
-        ax = new_axes(ax)
+    if ax is not None:
         _orbits(result, ax, range(len(shown)))
         title(ax, result.system)
         return ax
-    across = min(4, len(shown))
-    down = -(-len(shown) // across)
+    across = max(1, min(4, len(shown)))
+    down = max(1, -(-len(shown) // across))
     figure, axes = subplots(down, across, figsize=(2.1 * across, 0.4 + 2.3 * down), squeeze=False)
-    for place in axes.flat[len(shown):]:
+    for place in axes.flat[max(1, len(shown)) :]:
         place.remove()
     for number, one in enumerate(shown):
         place = axes.flat[number]
@@ -168,7 +167,9 @@ def orbits(result, ax=None, most=12):
             text += f", Λ = {real:.4g}" + (f" ± {imaginary:.3g} i" if imaginary else "")
         place.set_title(text, fontsize="small")
     title_above(figure, result.system)
-    return axes.flatten()[: len(shown)]
+    if not shown:
+        _orbits(result, axes[0, 0], [])
+    return axes.flatten()[: max(1, len(shown))]
 
 
 def _orbits(result, ax, numbers):
@@ -223,16 +224,18 @@ def equilibria(found, ax=None, most=4):
     """The places of the particles at the lowest equilibria, over the level lines of the potential, each in
     a picture of its own; with `ax` the lowest one."""
     shown = found.equilibria[: most if ax is None else 1]
-    if ax is not None or len(shown) < 2:
-        ax = new_axes(ax)
+    if ax is not None:
         _equilibrium(found, ax, shown)
         title(ax, found.system)
         return ax
-    figure, axes = subplots(1, len(shown), figsize=(2.4 * len(shown), 3.2))
+    many = max(1, len(shown))
+    figure, axes = subplots(1, many, figsize=(max(3.6, 2.4 * many), 3.2), squeeze=False)
+    axes = axes.flatten()
     for number, place in enumerate(axes):
-        _equilibrium(found, place, shown[number : number + 1], found.equilibria[:most])
-        place.set(ylabel="" if number else "y")
-        place.set_title(f"{shown[number].kind}\nE = {shown[number].energy:.8g}", fontsize="small")
+        _equilibrium(found, place, shown[number : number + 1], shown)
+        place.set(ylabel="" if number else "y", title="")
+    for one, place in zip(shown, axes):
+        place.set_title(f"{one.kind}\nE = {one.energy:.8g}", fontsize="small")
     title_above(figure, found.system)
     return axes
 

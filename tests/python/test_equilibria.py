@@ -29,8 +29,10 @@ def test_archives_keep_them(molecule, tmp_path):
 
 
 def test_they_have_a_picture(molecule):
-    axes = molecule.plot()
-    assert len(axes.lines) >= len(molecule.equilibria)
+    panels = molecule.plot()
+    assert len(panels) == len(molecule.equilibria)
+    for ax, one in zip(panels, molecule.equilibria):
+        assert any(line.get_xydata().tolist() == one.positions for line in ax.lines)
 
 
 def test_what_does_not_act_is_refused():
