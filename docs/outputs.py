@@ -26,7 +26,7 @@ MEASURED = re.compile(r"\b\d[\d.]*(?:e[+-]?\d+)? (?:s|ms|us|ns|min|[kM]?hits/s)\
 
 
 def is_output(language, text):
-    return not language and not text.startswith(("carom ", "pip ", "tar ", "cmake ", "sudo ", "./dev ", "mpirun "))
+    return not language and not text.startswith(("carom ", "pip ", "tar ", "cmake ", "sudo ", "./dev ", "mpirun ", "brew "))
 
 
 class Page:
