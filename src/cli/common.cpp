@@ -37,17 +37,24 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 std::atomic<std::int64_t> first_signal{0};
 static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 
-// While a system is read no loop looks at the flag: a signal ends the program. A sweep has what it
-// has finished on the disk by then, and goes on with it.
+// While a system is read no loop looks at the flag: if that takes a second more, the signal ends
+// the program. A sweep has what it has finished on the disk by then, and goes on with it.
 std::atomic<bool> reading{false};
+std::atomic<int> signal_while_reading{0};
+
+extern "C" void on_patience_ended(int) {
+  if (!reading) return;
+  std::signal(signal_while_reading, SIG_DFL);
+  std::raise(signal_while_reading);
+}
 
 // timeout and mpirun send a signal to the process and then to its group: the second one, at once,
 // does not ask for an end without delay.
 extern "C" void on_interrupt(int number) {
   if (reading) {
-    std::signal(number, SIG_DFL);
-    std::raise(number);  // when this function has returned
-    return;
+    signal_while_reading = number;
+    std::signal(SIGALRM, on_patience_ended);
+    ::alarm(1);
   }
   constexpr std::int64_t patience = 500'000'000;  // ns
   timespec time{};
