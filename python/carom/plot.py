@@ -370,6 +370,6 @@ def result(result, ax=None, what=None, **keywords):
     if what not in there:
         nearest = _carom.nearest_name(what, list(there))
         raise InputError(
-            f"there is no picture '{what}' of {result!r}", ("", 0, 0, "what"), " or ".join(there), nearest
+            f"a {type(result).__name__} has no picture '{what}'", ("", 0, 0, "what"), " or ".join(there), nearest
         )
     return there[what](result, ax=ax, **keywords)

@@ -29,6 +29,11 @@ TEST(System, DefaultsAreThoseOfTheGuide) {
   EXPECT_NEAR(s.run.times[10], 10.0, 1e-14);
 }
 
+TEST(System, APositionAloneIsAPoint) {
+  const System s = read(square("[initial]\nposition = [0.25, 0.5]\nvelocity = [3, 4]\n"));
+  EXPECT_EQ(s.initial.kind, Kind::point);
+}
+
 TEST(System, FieldGivesTheCyclotronFrequency) {
   const auto omega = [](const std::string& text) { return read(square(text)).particles[0].omega; };
   EXPECT_EQ(omega("[field]\nB = 0.1\n"), 0.1);

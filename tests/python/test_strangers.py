@@ -248,7 +248,7 @@ def test_json_says_what_was_drawn(tmp_path):
 def test_what_is_asked_for_is_the_programs_own(what, tmp_path):
     done = program("plot", "circle", f"--what={what}", "-o", "a.png", cwd=tmp_path)
     _, said = done.communicate()
-    assert done.returncode == 1 and f"there is no picture '{what}'" in said and "usage:" not in said
+    assert done.returncode == 1 and f"has no picture '{what}'" in said and "usage:" not in said
     assert said.startswith("carom: ") and list(tmp_path.iterdir()) == []
 
 
