@@ -9,6 +9,8 @@
 #include <cstring>
 #include <string>
 
+#include "../scratch_folder.hpp"
+
 namespace carom {
 
 using namespace files;
@@ -49,14 +51,13 @@ TEST(Platform, AsksAgainForALongPath) {
 }
 
 TEST(Platform, SyncsByWhatThereIs) {
-  char name[] = "/tmp/carom-sync-XXXXXX";
-  const int file = mkstemp(name);
+  const ScratchFolder folder;
+  const int file = open(folder.file("synced").c_str(), O_CREAT | O_RDWR, 0600);
   ASSERT_GE(file, 0);
   EXPECT_TRUE(sync_contents(file));
   EXPECT_TRUE(sync_all(file));
   EXPECT_TRUE(portable::sync(file, unknown));
   close(file);
-  unlink(name);
   for (const bool synced : {sync_contents(file), sync_all(file), portable::sync(file, unknown)}) {
     EXPECT_FALSE(synced);
     EXPECT_EQ(errno, EBADF);

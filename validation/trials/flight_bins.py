@@ -8,7 +8,6 @@ trajectory makes most long excursions.
 
     flight_bins.py [--carom PATH] [--quick]
 """
-import argparse
 import collections
 import sys
 
@@ -38,11 +37,7 @@ def coverage(values):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
-    parser.add_argument("--carom", default=trials.program)
-    parser.add_argument("--quick", action="store_true")
-    settings = parser.parse_args()
-    trials.program = settings.carom
+    settings = trials.settings(__doc__)
     number = 40 if settings.quick else 200
     rows, failed = [["bins of", "number", "bins", "held", "least of a bin", "counts below 100", "trials"]], False
     for name, command, bins, inside in CASES:

@@ -8,7 +8,6 @@ linear, the exponent is below `would_show`, in 97 % or more.
 
     growth_law.py [--carom PATH] [--quick]
 """
-import argparse
 import collections
 import pathlib
 import sys
@@ -29,11 +28,7 @@ STARTS = '[initial]\nkind = "rectangle"\nmin = [0.5, 0.5]\nmax = [0.7, 0.7]\n'
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
-    parser.add_argument("--carom", default=trials.program)
-    parser.add_argument("--quick", action="store_true")
-    settings = parser.parse_args()
-    trials.program = settings.carom
+    settings = trials.settings(__doc__)
     number = 20 if settings.quick else 200
     rows, failed = [["system", "t", "linear", "not known", "exponential", "right", "trials"]], False
 

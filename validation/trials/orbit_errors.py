@@ -6,7 +6,6 @@ they are bounds; trace_error, an estimate, in .98 or more. Outside: orbits whose
 
     orbit_errors.py [--carom PATH] [--quick]
 """
-import argparse
 import random
 import sys
 from decimal import Decimal
@@ -25,11 +24,7 @@ CASES = {
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
-    parser.add_argument("--carom", default=trials.program)
-    parser.add_argument("--quick", action="store_true")
-    settings = parser.parse_args()
-    trials.program = settings.carom
+    settings = trials.settings(__doc__)
     number = 5 if settings.quick else 25
     rows, failed = [["orbits", "proved", "places hold", "largest/bound", "lengths hold", "largest/bound", "traces hold", "largest/estimate"]], False
     degenerate = []

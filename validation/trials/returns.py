@@ -4,7 +4,6 @@ of 200 seeds).
 
     returns.py [--carom PATH] [--quick]
 """
-import argparse
 import sys
 
 import trials
@@ -14,11 +13,7 @@ CASES = (("stadium", "bottom", 500, 200), ("magnetic-square", "bottom", 500, 200
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
-    parser.add_argument("--carom", default=trials.program)
-    parser.add_argument("--quick", action="store_true")
-    settings = parser.parse_args()
-    trials.program = settings.carom
+    settings = trials.settings(__doc__)
     number = 40 if settings.quick else 200
     rows, failed = [("system", "wall", "mean", "held", "of", "95 % interval")], False
     for system, wall, size, t_max in CASES:

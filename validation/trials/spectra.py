@@ -8,7 +8,6 @@ their directions yet; against the means of the longer runs.
 
     spectra.py [--carom PATH] [--quick]
 """
-import argparse
 import pathlib
 import sys
 import tempfile
@@ -28,11 +27,7 @@ CASES = (("stadium", "stadium", 100, 100, True), ("two discs", discs(2), 60, 100
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
-    parser.add_argument("--carom", default=trials.program)
-    parser.add_argument("--quick", action="store_true")
-    settings = parser.parse_args()
-    trials.program = settings.carom
+    settings = trials.settings(__doc__)
     number = 40 if settings.quick else 200
     rows, failed = [["system", "t", "number", "truth", "held", "95 %", "doubted", "held or doubted", "trials"]], False
 

@@ -7,7 +7,6 @@ error ends before the run does, and how often one that does not is too small.
 
     state_errors.py [--carom PATH] [--quick]
 """
-import argparse
 import math
 import pathlib
 import sys
@@ -32,11 +31,7 @@ CASES = (("anharmonic well", SOFT, 50, 0.2, "blanes-moan-srkn11b", True), ("anha
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
-    parser.add_argument("--carom", default=trials.program)
-    parser.add_argument("--quick", action="store_true")
-    settings = parser.parse_args()
-    trials.program = settings.carom
+    settings = trials.settings(__doc__)
     number = 20 if settings.quick else 200
     rows, failed = [["system", "t", "step", "scheme", "stated", "position held", "velocity held", "95 %", "middle of error/stated"]], False
     with tempfile.TemporaryDirectory() as folder:

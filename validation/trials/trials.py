@@ -2,6 +2,7 @@
 
 CAROM_SEEDS=N in the environment shifts all seeds by N: trials that nothing was chosen by.
 """
+import argparse
 import json
 import math
 import os
@@ -9,6 +10,17 @@ import subprocess
 
 program = "build/release/carom"
 shift = int(os.environ.get("CAROM_SEEDS", "0"))
+
+
+def settings(doc):
+    """The options that all trials have: --carom, which is `program` from then on, and --quick."""
+    global program
+    parser = argparse.ArgumentParser(description=doc.split("\n", 1)[0])
+    parser.add_argument("--carom", default=program, help="the program")
+    parser.add_argument("--quick", action="store_true", help="few trials")
+    given = parser.parse_args()
+    program = given.carom
+    return given
 
 
 def carom(args):
