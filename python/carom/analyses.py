@@ -98,20 +98,38 @@ def lyapunov(result, ax=None):
         edges, counts = _coarser(bins)
         ax.stairs(counts / (counts.sum() * numpy.diff(edges)), edges, fill=True, color=COLOURS[0])
         ax.ticklabel_format(useOffset=False)
-    if result.lambda_ is not None:
-        value, error = (result.lambda_[0][key] for key in ("value", "stderr"))
-        known = error is not None and error > 0
-        ax.axvline(
-            value, color=COLOURS[1], linewidth=1,
-            label=f"λ = {with_error(value, error if known else 0.0)}",
-        )  # fmt: skip
-        if known:
-            ax.axvspan(value - error, value + error, color=COLOURS[1], alpha=0.2, linewidth=0)
-        ax.margins(y=0.15)
-        legend(ax, fontsize="small")
+    ax.margins(y=0.15)
+    _exponent_line(ax, result, ax.axvline, ax.axvspan)
     ax.set(xlabel="exponent of an orbit", ylabel="" if few else "density")
     title(ax, result.system)
     return ax
+
+
+def convergence(result, ax=None):
+    """The exponent since the start at growing times, and the one that the run gives."""
+    ax = new_axes(ax)
+    points = result.convergence
+    if points is not None and len(points):
+        t, value, error = points["t"], points["lambda"], numpy.nan_to_num(points["lambda_stderr"])
+        ax.plot(t, value, "o-", markersize=4, color=COLOURS[0])
+        ax.fill_between(t, value - error, value + error, color=COLOURS[0], alpha=0.2, linewidth=0)
+        ax.set_xscale("log")
+    _exponent_line(ax, result, ax.axhline, ax.axhspan)
+    ax.set(xlabel="t", ylabel="λ(t)")
+    title(ax, result.system)
+    return ax
+
+
+def _exponent_line(ax, result, line, span):
+    """The exponent of the run with its error, as `line` and `span` draw it."""
+    if result.lambda_ is None:
+        return
+    value, error = (result.lambda_[0][key] for key in ("value", "stderr"))
+    known = error is not None and error > 0
+    line(value, color=COLOURS[1], linewidth=1, label=f"λ = {with_error(value, error if known else 0.0)}")
+    if known:
+        span(value - error, value + error, color=COLOURS[1], alpha=0.2, linewidth=0)
+    legend(ax, fontsize="small")
 
 
 def spectrum(result, ax=None):

@@ -11,7 +11,7 @@ import warnings
 import numpy
 
 from . import _carom
-from .analyses import comparison, equilibria, lyapunov, orbits, spectrum, sweep
+from .analyses import comparison, convergence, equilibria, lyapunov, orbits, spectrum, sweep
 from .axes import COLOURS, STYLE
 from .axes import colour_of as _colour_of
 from .axes import legend as _legend
@@ -35,7 +35,7 @@ from .tables import table
 from .transport import correlation, diffusion, free_paths, returns
 
 __all__ = (
-    "STYLE basins comparison correlation diffusion distances energy equilibria escape exponents free_paths lyapunov"
+    "STYLE basins comparison convergence correlation diffusion distances energy equilibria escape exponents free_paths lyapunov"
     " orbit orbits pictures rate result returns section spectrum survival sweep table times"
 ).split()
 

@@ -157,6 +157,8 @@ class Lyapunov(Result, archive="lyapunov"):
     table they are those of the orbits that never leave, and repeller says how they were measured. Array:
 
     distribution  (number of bins,): from, to (1/time), count: finite-time exponents of the orbits
+    convergence   (number of times,): t (time), lambda, lambda_stderr (1/time; NaN where few orbits
+                  or quasi-random starts give none): the exponent since the start
 
     With spectrum=True also entropy (value, stderr: 1/time), pairing (1/time), zeros (count, laws,
     largest) and the array
@@ -164,7 +166,10 @@ class Lyapunov(Result, archive="lyapunov"):
     spectrum      (4 · number of particles,): value, stderr (1/time), the largest first
     """
 
-    _COLUMNS = {"distribution": [("from", "f8"), ("to", "f8"), ("count", "i8")]}
+    _COLUMNS = {
+        "distribution": [("from", "f8"), ("to", "f8"), ("count", "i8")],
+        "convergence": [("t", "f8"), ("lambda", "f8"), ("lambda_stderr", "f8")],
+    }
 
     @property
     def lambda_(self):
@@ -186,7 +191,10 @@ class Lyapunov(Result, archive="lyapunov"):
     def _pictures(self):
         more = {"exponents": plot.exponents, "times": plot.times} if self.per_trajectory is not None else {}
         whole = {"spectrum": plot.spectrum} if "spectrum" in self._json else {}
-        return {"lyapunov": plot.lyapunov} | whole | more
+        pictures = {"lyapunov": plot.lyapunov, "convergence": plot.convergence}
+        if self.orbits == 1:
+            pictures = dict(reversed(pictures.items()))
+        return pictures | whole | more
 
     def _summary(self):
         largest = self.lambda_[0] if self.lambda_ is not None else None

@@ -26,8 +26,8 @@ TEST(Lyapunov, PrintsItsKeysAndOneDigest) {
   EXPECT_TRUE(is_json_object(one.out));
   for (const char* key :
        {"version", "seconds", "trajectories", "orbits", "lost", "collisions", "digest", "window",
-        "lambda", "per_collision", "block_errors", "long_enough", "distribution", "chaotic_share",
-        "regularity", "starts", "drift", "notes"})
+        "lambda", "per_collision", "block_errors", "long_enough", "distribution", "convergence",
+        "chaotic_share", "regularity", "starts", "drift", "notes"})
     EXPECT_NE(json_value(one.out, key), "") << key;
   for (const char* key : {"digest", "lambda", "per_collision", "distribution", "chaotic_share"})
     EXPECT_EQ(json_value(one.out, key), json_value(two.out, key)) << key;

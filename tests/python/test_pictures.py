@@ -207,7 +207,7 @@ def test_every_picture_of_a_diffusion_is_drawn(tmp_path):
 
 def test_the_spectrum_is_drawn_with_its_entropy(tmp_path):
     result = carom.lyapunov("wigner", trajectories=2, t_max=5, spectrum=True)
-    assert list(carom.plot.pictures(result)) == ["lyapunov", "spectrum"]
+    assert list(carom.plot.pictures(result)) == ["lyapunov", "convergence", "spectrum"]
     assert len(result.spectrum) == 20 and abs(result.spectrum["value"].sum()) < 1e-9
     assert result.entropy.value == pytest.approx(result.spectrum["value"][:6].sum())
     ax = result.plot(what="spectrum")

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "carom/analyses/lyapunov/convergence.hpp"
 #include "carom/analyses/lyapunov/drift.hpp"
 #include "carom/analyses/lyapunov/growth.hpp"
 #include "carom/analyses/lyapunov/repeller.hpp"
@@ -22,9 +23,10 @@ struct LyapunovResult : EnsembleResult, FateCounts {
   using RecordFields = ExponentFields;
   /// Of the particles that were followed to the end of the window.
   GrowthSums growth;
-  SpectrumSums spectrum;    ///< with RunPlan::spectrum
-  DriftSums drift;          ///< of the same particles; empty in archives of older versions
-  DriftSums entropy_drift;  ///< with RunPlan::spectrum
+  SpectrumSums spectrum;        ///< with RunPlan::spectrum
+  ConvergenceSums convergence;  ///< of the same; without times in archives of older versions
+  DriftSums drift;              ///< of the same particles; empty in archives of older versions
+  DriftSums entropy_drift;      ///< with RunPlan::spectrum
   /// Particles of all trajectories; the fates are those before the end of the window.
   std::uint64_t trajectories = 0;
   std::uint64_t collisions = 0;
@@ -44,6 +46,8 @@ using LyapunovOptions = EnsembleOptions<LyapunovResult>;
 
 /// Are all particles one orbit, because they interact or their spectrum is asked for?
 bool interacts(const System&);
+/// The exponent at growing times, of a result.
+std::vector<ExponentAt> convergence_of(const LyapunovResult&);
 /// How many of the 4 N exponents vanish for certain, and by which conservation laws: those of
 /// energy, of the motion of the centre of mass, and of angular momentum (docs/physics/lyapunov.md).
 struct VanishingExponents {

@@ -87,6 +87,19 @@ void describe_estimates(V& v, const LyapunovResult& result, const System& system
 }
 
 template <class V, class Sums>
+void describe_convergence(V& v, Sums& sums, const LyapunovResult& result) {
+  if (!v.group_if(!sums.times().empty(), "convergence", "The exponent at growing times")) return;
+  v.kept_rows([&] { return convergence_of(result); });
+  if constexpr (V::reads) sums = ConvergenceSums(v.template values<double>("convergence", "t"));
+  v.sums(
+      {"sums", "1, 1", "Sums over orbits of ln|deviation| and of its square, a pair for each row"},
+      2 * sums.sums().size(), [&](std::size_t i) -> auto& {
+        auto& at = sums.sums()[i / 2];
+        return i % 2 == 0 ? at.length : at.square;
+      });
+}
+
+template <class V, class Sums>
 void describe_drift(V& v, const char* name, Sums& sums) {
   const std::string orbits = std::string(name) + "_orbits";
   if (!v.kept_if(sums.orbits > 0, {orbits.c_str(), "1", "Orbits of these sums"}, sums.orbits))
@@ -226,6 +239,7 @@ void describe(V& v, Result& result, const System& system) {
   describe_drift(v, "drift", result.drift);
   describe_drift(v, "entropy_drift", result.entropy_drift);
   describe_spectrum(v, result.spectrum, result.growth);
+  describe_convergence(v, result.convergence, result);
   describe_repeller(v, result.repeller);
 }
 

@@ -15,10 +15,12 @@
 #include "carom/starts/injection.hpp"
 #include "carom/starts/sampler.hpp"
 #include "carom/starts/start_measure.hpp"
+#include "results/describe_ends.hpp"
 
 namespace carom {
 
 using namespace analyses;
+using results::is_integrated;
 
 namespace {
 
@@ -35,10 +37,27 @@ GrowthSums plan_of(const System& system) {
           system.quasi_random()};
 }
 
+// The looks, which cost no more. Of few orbits twice as many, and down to a mean flight: but under
+// forces steps end at each time, and a picture must not change them.
+std::vector<double> times_of_convergence(const System& system, const GrowthSums& plan) {
+  constexpr double half_octave = 0.7071067811865476;
+  std::vector<double> times;
+  for (std::size_t look = 0; look < GrowthSums::looks; ++look)
+    times.push_back(plan.look_time(look));
+  if (plan.blocks() == 1 || is_integrated(system)) return times;
+  const double unit = unit_length_of(*system.table) / system.particles.front().speed;
+  for (std::size_t look = GrowthSums::looks; look-- > 1;)
+    times.push_back(half_octave * times[look]);
+  for (double t = times.front(); t >= unit && times.size() + 2 <= ConvergenceSums::most; t *= 0.5) {
+    times.push_back(half_octave * t);
+    times.push_back(0.5 * t);
+  }
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
 void refuse_no_exponents(const System& system) {
-  const Dynamics& d = system.dynamics;
-  const bool forces = d.everywhere || (d.forces && !d.forces->empty());
-  if (forces && is_adaptive(d.integrator.scheme))
+  if (is_integrated(system) && is_adaptive(system.dynamics.integrator.scheme))
     throw InputError(Place{"", 0, 0, "integrator.scheme"},
                      "deviations are not followed by adaptive schemes", "a scheme of fixed steps");
   refuse_injections(system, "an ensemble whose deviations grow");
@@ -97,6 +116,10 @@ VanishingExponents vanishing_exponents(const System& system) {
   return v;
 }
 
+std::vector<ExponentAt> convergence_of(const LyapunovResult& result) {
+  return result.convergence.exponents(result.growth.totals().orbits, result.growth.parts().empty());
+}
+
 std::string why_all_are_regular(const System& system) {
   if (act_on_each_other(system)) return {};
   const std::vector<Wall>& walls = system.table->walls;
@@ -141,6 +164,7 @@ bool LyapunovResult::add(const LyapunovResult& other) {
   repeller.reset();  // it is the whole ensemble's
   no_repeller.reset();
   growth.merge(other.growth);
+  convergence.merge(other.convergence);
   spectrum.merge(other.spectrum);
   drift.merge(other.drift);
   entropy_drift.merge(other.entropy_drift);
@@ -212,8 +236,9 @@ LyapunovResult run_lyapunov(const System& system, const LyapunovOptions& options
   if (system.run.spectrum)
     nothing.spectrum = {nothing.growth, 4 * system.particles.size(),
                         vanishing_exponents(system).count};
-  const GrowthTimes times(nothing.growth);
   const double unit_length = unit_length_of(*system.table);
+  nothing.convergence = ConvergenceSums(times_of_convergence(system, nothing.growth));
+  const GrowthTimes times(nothing.growth, nothing.convergence);
   LyapunovResult result = engines::fly_blocks<LyapunovResult>(
       system, with_starts_of_the_flow(system), options, nothing,
       {.t_end = nothing.growth.window().to,

@@ -11,12 +11,20 @@
 
 namespace carom::analyses {
 
-GrowthTimes::GrowthTimes(const GrowthSums& plan) {
-  marks_.push_back({plan.window().from, -1, -1, true});
+GrowthTimes::GrowthTimes(const GrowthSums& plan, const ConvergenceSums& convergence) {
+  marks_.push_back({.time = plan.window().from, .opens = true});
   for (std::size_t block = 0; block < plan.blocks(); ++block)
-    marks_.push_back({plan.block_end(block), static_cast<int>(block), -1, false});
+    marks_.push_back({.time = plan.block_end(block), .block = static_cast<int>(block)});
   for (std::size_t look = 0; look < GrowthSums::looks; ++look)
-    marks_.push_back({plan.look_time(look), -1, static_cast<int>(look), false});
+    marks_.push_back({.time = plan.look_time(look), .look = static_cast<int>(look)});
+  for (std::size_t i = 0; i < convergence.times().size(); ++i) {
+    const double time = convergence.times()[i];
+    const auto look = std::find_if(marks_.begin(), marks_.end(), [&](const Mark& mark) {
+      return mark.look >= 0 && mark.time == time;
+    });
+    Mark& at = look != marks_.end() ? *look : marks_.emplace_back(Mark{.time = time});
+    at.point = static_cast<int>(i);
+  }
   std::stable_sort(marks_.begin(), marks_.end(),
                    [](const Mark& a, const Mark& b) { return a.time < b.time; });
 }
@@ -61,6 +69,7 @@ void LyapunovListener::begin(const Trajectory& t) {
     mine.growth.look = 0;
     mine.growth.flights = mine.pace * marks_.back().time;
     mine.frame.clear();
+    mine.convergence.resize(marks_.size());
   }
 }
 
@@ -76,6 +85,10 @@ void LyapunovListener::take(Orbit& mine, const GrowthTimes::Mark& mark,
   // Of a frame the growth of the first tells: that of the second may be another particle's.
   const bool frame = system_.run.spectrum;
   mine.spread = logarithms[0] + logarithms[frame ? 0 : 1];
+  if (mark.point >= 0) {
+    mine.convergence[static_cast<std::size_t>(mark.point)] = logarithms[0];
+    if (mark.look < 0) return;
+  }
   if (mark.look >= 0 && !mine.chaotic) {
     mine.growth.regularity = regularity_of(mine.spread, mark.time * mine.pace);
     mine.chaotic = mine.growth.regularity == Regularity::chaotic;
@@ -152,6 +165,7 @@ void LyapunovListener::end(const Trajectory& t, const TrajectoryEnd& end) {
           if (together_ ? all && p == 0 : stays(particle)) {
             sum.growth.add(mine.growth, t.number);
             for (const double growth : mine.growth.growth) hash = mix(hash, growth);
+            sum.convergence.add(mine.convergence);
             sum.drift.add(mine.lengths, sum.growth.window().to);
             if (sum.spectrum.counted()) {
               sum.spectrum.add(mine.frame);

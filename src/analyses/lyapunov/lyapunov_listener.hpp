@@ -18,11 +18,12 @@ namespace carom::analyses {
 /// The times at which lengths are taken, of all orbits the same.
 class GrowthTimes {
  public:
-  explicit GrowthTimes(const GrowthSums&);
+  GrowthTimes(const GrowthSums&, const ConvergenceSums&);
   struct Mark {
     double time = 0.0;
     int block = -1;  ///< that ends there; the first one begins at the mark `opens`
     int look = -1;
+    int point = -1;  ///< of the convergence
     bool opens = false;
   };
   const std::vector<Mark>& marks() const { return marks_; }
@@ -59,6 +60,7 @@ class LyapunovListener : public engines::EnsembleListener<LyapunovResult> {
     bool chaotic = false;
     OrbitGrowth growth;
     std::vector<double> frame, frame_before;  ///< growth in each block; logarithms at the last mark
+    std::vector<double> convergence;          ///< ln|w| at each of its times
     DriftSums::Lengths lengths{}, volumes{};  ///< ln|w| and that of all that grow, at some looks
   };
   const std::vector<GrowthTimes::Mark>& marks_;

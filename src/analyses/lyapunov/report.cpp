@@ -353,6 +353,13 @@ Json result_json(const System& system, const LyapunovResult& result,
   for (const ExponentBin& bin : distribution_of(sums))
     bins.push(Json::object().set("from", bin.from).set("to", bin.to).set("count", bin.count));
   json.set("distribution", std::move(bins));
+  Json convergence = Json::array();
+  for (const ExponentAt& point : convergence_of(result)) {
+    Json row = Json::object();
+    files::add_numbers(row, point);
+    convergence.push(std::move(row));
+  }
+  json.set("convergence", std::move(convergence));
   json.set("chaotic_share", std::isfinite(e.chaotic_share.value)
                                 ? estimate_json(e.chaotic_share)
                                       .set("low", e.share_interval.low)
