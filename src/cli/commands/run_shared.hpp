@@ -19,7 +19,7 @@ namespace carom::cli {
 
 /// Flies this rank's share into the archive `part`.
 template <class Result>
-void fly_share(const Options& options, EnsembleJob<Result>& job, const Ranks& ranks,
+void fly_share(const Options& options, EnsembleJob<Result>& job, Ranks& ranks,
                const std::string& part) {
   const System& system = job.loaded.system;
   EnsembleOptions<Result> how = how_to_run<Result>(options);
@@ -36,6 +36,9 @@ void fly_share(const Options& options, EnsembleJob<Result>& job, const Ranks& ra
   EnsembleArchive<Result> archive(part, job.loaded,
                                   provenance_of(options, system, threads_of(options)), plan);
   how.journal = &archive;
+  // One that cannot begin ends all, and removes the folder of shares: those that come late must not
+  // complain of that.
+  ranks.meet();
   try {
     Result result = fly(options, system, how);
     const char* const status = status_of(result.complete);
