@@ -382,8 +382,10 @@ class CertifiedOrbit::Implementation {
 };
 
 CertifiedOrbit::CertifiedOrbit(const ExactSystem& system, const CertifiedTask& task,
-                               std::function<bool()> interrupted)
-    : implementation_(std::make_unique<Implementation>(system, task, std::move(interrupted))) {}
+                               std::function<bool()> interrupted) {
+  if (system.table) refuse_scattering(*system.table, "guaranteed digits");
+  implementation_ = std::make_unique<Implementation>(system, task, std::move(interrupted));
+}
 CertifiedOrbit::~CertifiedOrbit() = default;
 CertifiedOrbit::CertifiedOrbit(CertifiedOrbit&&) noexcept = default;
 std::optional<CertifiedHit> CertifiedOrbit::next() { return implementation_->next(); }

@@ -54,7 +54,7 @@ class Completions {
   static std::string key_of(const KeyDescription& key) {
     std::string path(key.section);
     for (std::string_view list :
-         {"table.obstacle", "table.hole", "table.loop", "injection", "potential"})
+         {"table.obstacle", "table.hole", "table.wall", "table.loop", "injection", "potential"})
       if (path.starts_with(list)) path.insert(list.size(), "[0]");
     return path + (path.empty() ? "" : ".") + std::string(key.key);
   }

@@ -35,6 +35,13 @@ const Table& without_misplaced(const Table& table) {
   return table;
 }
 
+/// Steps and contacts know mirrors alone.
+const Dynamics& without_scattering(const Table& table, const Dynamics& dynamics) {
+  if (dynamics.everywhere || has_discs(dynamics) || (dynamics.forces && !dynamics.forces->empty()))
+    refuse_scattering(table, "forces, steps or hard discs");
+  return dynamics;
+}
+
 /// What free flights meet beyond the user's walls, or in their place; without walls if there is no
 /// such thing.
 Table walls_of_flights(const Table& table, const Dynamics& dynamics) {
@@ -50,7 +57,7 @@ class World::Implementation {
   Implementation(const Table& the_table, const Dynamics& how, DecisionOptions options)
       : table(without_misplaced(the_table)),
         scales(the_table),
-        dynamics(how),
+        dynamics(without_scattering(the_table, how)),
         own_walls(std::make_shared<const Table>(walls_of_flights(table, dynamics))),
         flights(PieceTable(walls(), options), inside(), regions, bodies) {
     if (has_discs(dynamics)) discs.emplace(table, dynamics, bodies, flights, watch, interrupt);
@@ -211,6 +218,9 @@ void World::clear() {
 }
 
 void World::stop_when(std::function<bool()> enough) { implementation_->enough = std::move(enough); }
+void World::scatter_by(std::uint64_t seed, std::uint64_t trajectory, std::vector<int> numbers) {
+  implementation_->flights.scatter_by(seed, trajectory, std::move(numbers));
+}
 void World::limit_hits(std::uint64_t hits) { implementation_->bodies.limit_hits(hits); }
 void World::sample_at(std::vector<double> times) { implementation_->samples.at(std::move(times)); }
 void World::sample_every(double interval) { implementation_->samples.every(interval); }

@@ -371,6 +371,7 @@ State Sampler::on_wall(int wall, double u, double tangential, double normal, dou
 
 int add_start(World& world, const System& system, const State& state, std::uint64_t trajectory,
               int particle) {
+  world.scatter_by(system.run.seed, trajectory);
   try {
     return world.add(system.particles.at(static_cast<std::size_t>(particle)), state);
   } catch (const std::invalid_argument& error) {

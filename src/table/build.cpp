@@ -1,4 +1,5 @@
 // From a specification to a table.
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -85,6 +86,20 @@ int Table::wall_index(const std::string& name) const {
   return -1;
 }
 
+bool scatters(const Table& table) {
+  return std::any_of(table.walls.begin(), table.walls.end(),
+                     [](const Wall& wall) { return wall.specularity < 1.0; });
+}
+
+void refuse_scattering(const Table& table, const char* what) {
+  for (const Wall& wall : table.walls)
+    if (wall.specularity < 1.0)
+      throw InputError(Place{"", 0, 0, "table.wall"},
+                       "wall '" + wall.name + "' reflects at random, and there are no " + what +
+                           " with such walls",
+                       "law = \"specular\"");
+}
+
 std::vector<int> hole_numbers(const Table& table) {
   std::vector<int> numbers;
   int number = -1;
@@ -121,6 +136,7 @@ Table build_table(const TableSpec& spec) {
   if (!table.walls.empty()) shapes::check_region(spec, table);
   shapes::refuse_misplaced(spec, table);
   shapes::add_holes(spec, table);
+  shapes::add_laws(spec, table);
   return table;
 }
 

@@ -9,20 +9,6 @@
 namespace carom::table::shapes {
 namespace {
 
-int named_wall(const HoleSpec& hole, const Table& table) {
-  const int wall = table.wall_index(hole.wall);
-  if (wall >= 0) return wall;
-  std::vector<std::string> names;
-  std::string list;
-  for (const Wall& w : table.walls) {
-    names.push_back(w.name);
-    if (names.size() <= 8) list += (list.empty() ? "" : ", ") + w.name;
-  }
-  if (names.size() > 8) list += ", …";
-  throw InputError(hole.wall_place, "unknown wall '" + hole.wall + "'", "one of " + list,
-                   nearest_name(hole.wall, names));
-}
-
 // The length of a wall is a rounded number, while an end written as "pi" is not: ends that agree
 // with the wall's to rounding mean the wall's.
 bool beyond(double s, double length) {
@@ -98,6 +84,20 @@ class Opening {
 
 }  // namespace
 
+int named_wall(const std::string& name, const Place& place, const Table& table) {
+  const int wall = table.wall_index(name);
+  if (wall >= 0) return wall;
+  std::vector<std::string> names;
+  std::string list;
+  for (const Wall& w : table.walls) {
+    names.push_back(w.name);
+    if (names.size() <= 8) list += (list.empty() ? "" : ", ") + w.name;
+  }
+  if (names.size() > 8) list += ", …";
+  throw InputError(place, "unknown wall '" + name + "'", "one of " + list,
+                   nearest_name(name, names));
+}
+
 void add_holes(const TableSpec& spec, Table& table) {
   std::vector<std::size_t> origin;  // which specification a hole of the table came from
   std::vector<std::string> names;
@@ -108,7 +108,7 @@ void add_holes(const TableSpec& spec, Table& table) {
       throw InputError(hole.place, "two holes are called '" + name + "'", "a name of its own");
     }
     names.push_back(name);
-    Opening(hole, name, named_wall(hole, table), table).cut();
+    Opening(hole, name, named_wall(hole.wall, hole.wall_place, table), table).cut();
     origin.resize(table.holes.size(), k);
   }
   for (Wall& wall : table.walls) {
@@ -126,6 +126,15 @@ void add_holes(const TableSpec& spec, Table& table) {
                            "' on wall '" + wall.name + "'",
                        "holes that are apart");
     }
+  }
+}
+
+void add_laws(const TableSpec& spec, Table& table) {
+  for (const WallLawSpec& law : spec.laws) {
+    const int wall = law.wall.empty() ? -1 : named_wall(law.wall, law.wall_place, table);
+    for (std::size_t k = 0; k < table.walls.size(); ++k)
+      if (wall < 0 || static_cast<std::size_t>(wall) == k)
+        table.walls[k].specularity = law.specularity.to_double();
   }
 }
 

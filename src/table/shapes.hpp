@@ -112,6 +112,7 @@ void add_obstacles(const TableSpec&, Shape&);
 
 /// Turns the holes' arc lengths into parameters.
 void add_holes(const TableSpec& spec, Table& table);
+void add_laws(const TableSpec& spec, Table& table);
 
 /// Are arcs bent enough, ellipses thick and circles large enough for hits in doubles?
 /// docs/physics/exactness.md, Flat arcs and Thin walls.

@@ -14,7 +14,8 @@ enum class Purpose : std::uint64_t {
   injection_time = 4,
   swap_test = 6,
   arrangement = 7,
-  quasi_random = 8
+  quasi_random = 8,
+  scattering = 9
 };
 
 /// Philox4x64-10 (Salmon et al. 2011) with key (seed, purpose) and counter

@@ -54,6 +54,11 @@ class World {
   /// Removes all particles and sets the clock to 0; keeps the prepared table.
   void clear();
 
+  /// Which random numbers walls that scatter draw: a hit of a particle is a function of the seed,
+  /// the trajectory, the particle's number (`numbers`; else its index) and how many hits it has
+  /// made. Until then those of trajectory 0 and seed 0.
+  void scatter_by(std::uint64_t seed, std::uint64_t trajectory, std::vector<int> numbers = {});
+
   /// Most hits a particle may make (default: no limit).
   void limit_hits(std::uint64_t hits);
   /// Samples at the given increasing times (from the next run_until on).

@@ -28,6 +28,8 @@ struct Wall {
   int previous = 0;  ///< wall that ends where this one begins
   /// n when the corner at this wall's start is declared to have the angle pi/n (0: not declared).
   int corner = 0;
+  /// The share of hits that are mirrored; the others leave by Lambert's law (World::scatter_by).
+  double specularity = 1.0;
   std::vector<int> holes;  ///< indices into Table::holes, ordered by parameter
 };
 
@@ -52,6 +54,11 @@ struct Table {
   int wall_index(const std::string& name) const;
   int hole_index(const std::string& name) const;
 };
+
+/// Do walls reflect at random?
+bool scatters(const Table&);
+/// Throws InputError if they do. `what`: cannot be had with such walls.
+void refuse_scattering(const Table&, const char* what);
 
 /// Area of the domain (of one cell for a lattice; infinity for the open plane), total length of the
 /// walls, and the mean flight pi A / L of the closed billiard without field.

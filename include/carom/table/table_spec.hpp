@@ -59,6 +59,13 @@ struct ObstacleSpec {
   Place place;
 };
 
+/// How a wall reflects, as the system file gives it.
+struct WallLawSpec {
+  std::string wall;         ///< "" : all walls
+  ExactNumber specularity;  ///< Wall::specularity
+  Place wall_place;
+};
+
 /// The two vectors of a lattice.
 struct LatticeSpec {
   ExactPoint first, second;
@@ -80,6 +87,7 @@ struct TableSpec {
   std::vector<LoopSpec> loops;  ///< path
   std::vector<ObstacleSpec> obstacles;
   std::vector<HoleSpec> holes;
+  std::vector<WallLawSpec> laws;  ///< the last that names a wall holds
   std::optional<LatticeSpec> lattice;
 };
 

@@ -203,6 +203,7 @@ class SingleRun {
       numbers_.push_back(static_cast<int>(p));
       particles_.push_back(all_[p]);
     }
+    world_.scatter_by(system_.run.seed, trajectory(), numbers_);
     passed_on_.emplace(observer, numbers_, std::move(entries));
   }
 
@@ -443,7 +444,7 @@ class SingleRun {
 }  // namespace
 
 bool estimates_trust(const System& system) {
-  return !system.dynamics.everywhere && !system.of_discs() &&
+  return !system.dynamics.everywhere && !system.of_discs() && !scatters(*system.table) &&
          (!system.dynamics.forces || system.dynamics.forces->empty());
 }
 

@@ -95,6 +95,11 @@ std::string table_text(const System& system, const TableMeasure& measured,
     text += fmt::format("  hole '{}' in '{}': arc length {:.9g} to {:.9g}\n", hole.name,
                         table.walls[static_cast<std::size_t>(hole.wall)].name, from, to);
   }
+  for (const Wall& wall : table.walls)
+    if (wall.specularity < 1.0)
+      text +=
+          fmt::format("  wall '{}' mirrors a share {:.6g} of the hits; the others are diffuse\n",
+                      wall.name, wall.specularity);
   if (!output.empty()) text += fmt::format("  drawing: {}\n", output);
   return text;
 }

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/index.hpp"
+#include "carom/base/random.hpp"
+
 namespace carom::events {
 
 using geometry::Vector;
@@ -14,6 +17,7 @@ FreeFlights::FreeFlights(const PieceTable& seen, const Table& inside, const Forc
       bodies_(bodies),
       regions_(regions),
       inside_(inside) {
+  scattering_.any = scatters(seen.table);
   const std::vector<Wall>& walls = seen.table.walls;
   for (std::size_t i = 0; i < walls.size(); ++i) {
     const Wall& w = walls[i];
@@ -66,6 +70,31 @@ void FreeFlights::begin_on_wall(Body& b, int wall, double u) const {
   b.flight.omega = b.particle.omega;
   b.flight.square_speed = b.particle.speed * b.particle.speed;
   pieces().begin_on_wall(b.flight, wall, u, b.state.position, b.state.velocity);
+}
+
+/// By Lambert's law the sine of the angle to the normal is uniform (docs/physics/scattering.md).
+/// Where the velocity is not one into the domain, as at a corner, the next two numbers are tried.
+void FreeFlights::scatter(int index, const Body& b, const PieceTable::Landing& landing,
+                          Vector& after) {
+  const double specularity = pieces().table.walls[base::at(landing.wall)].specularity;
+  if (!(specularity < 1.0)) return;
+  const int number = scattering_.numbers.empty() ? index : scattering_.numbers[base::at(index)];
+  RandomStream::Block words;
+  RandomStream::block(scattering_.seed, Purpose::scattering, scattering_.trajectory,
+                      static_cast<std::uint64_t>(number), b.hits, words);
+  if (RandomStream::uniform(words[0]) < specularity) return;
+  const Vector inward =
+      (1.0 / std::sqrt(dot(landing.at.normal, landing.at.normal))) * landing.at.normal;
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const double sine = RandomStream::symmetric(words[i]);
+    const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
+    const Vector way = sine * geometry::right(inward) + cosine * inward;
+    const Vector velocity = b.particle.speed * way;
+    after = (1.0 + geometry::step_to_energy_shell(velocity, b.shell)) * velocity;
+    if (pieces().inward(landing.wall, *landing.curve, landing.at.u, after, landing.at.normal,
+                        counts_) == Sign::positive)
+      return;
+  }
 }
 
 /// The flight ends on the edge of a support.

@@ -4,7 +4,9 @@
 // that its numbers stay in registers from landing to the next hit.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "events/bodies.hpp"
@@ -43,6 +45,11 @@ class FreeFlights {
   /// Is the point strictly inside (exact)?
   bool contains(geometry::Vector point);
 
+  /// As World::scatter_by.
+  void scatter_by(std::uint64_t seed, std::uint64_t trajectory, std::vector<int> numbers) {
+    scattering_ = {scattering_.any, seed, trajectory, std::move(numbers)};
+  }
+
   /// From now on a flight is not taken over an edge of its cell before it gets there: for bodies
   /// that meet others.
   void keep_to_cells() { over_edges_ = false; }
@@ -54,6 +61,8 @@ class FreeFlights {
  private:
   void predict(int index, Body& b);
   void schedule(int index, const Body& b);
+  void scatter(int index, const Body& b, const PieceTable::Landing& landing,
+               geometry::Vector& after);
   static void put_on_edge(Body& b, Time now, const PieceTable::Landing& landing);
   bool reflect(int index, Body& b, Time now, Observer& observer,
                const PieceTable::Landing& landing);
@@ -62,6 +71,11 @@ class FreeFlights {
   bool over_edges_;
   Bodies& bodies_;
   const ForceRegions& regions_;
+  struct Scattering {
+    bool any = false;  ///< does a wall?
+    std::uint64_t seed = 0, trajectory = 0;
+    std::vector<int> numbers;  ///< of bodies; empty: their indices
+  } scattering_;
   std::vector<int> corners_;  ///< order n of the corner at each wall's start, 0: none
   DecisionCounts counts_;
   const Table& inside_;
@@ -129,6 +143,8 @@ class FreeFlights {
   } else {
     after = geometry::reflected(before, normal, landing.at.factor, step);
   }
+  if (scattering_.any) [[unlikely]]
+    scatter(index, b, landing, after);
   Sign inward = pieces().inward(landing.wall, *landing.curve, landing.at.u, after, normal, counts_);
   if (inward == Sign::negative && reflections == 1) {
     // A grazing rounding: reflecting once more turns it back.

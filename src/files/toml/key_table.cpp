@@ -52,6 +52,7 @@ const std::vector<KeyDescription>& key_table() {
       {"table", "", "obstacle", "list of tables", "",
        "closed walls inside the table or in the cell: [[table.obstacle]]"},
       {"table", "", "hole", "list of tables", "", "openings of walls: [[table.hole]]"},
+      {"table", "", "wall", "list of tables", "", "how walls reflect: [[table.wall]]"},
 
       {"table.obstacle", "", "shape", "string", "", "circle, ellipse or polygon"},
       {"table.obstacle", "circle|ellipse", "center", "point", "", "its centre"},
@@ -70,6 +71,13 @@ const std::vector<KeyDescription>& key_table() {
        "arc length from the wall's start to the hole's centre"},
       {"table.hole", "", "width", "number", "", "arc length of the hole"},
       {"table.hole", "", "name", "string", "", "a name; hole_1, hole_2 … if not given"},
+
+      {"table.wall", "", "law", "string", "",
+       "specular; diffuse: by Lambert's law, the sine of the angle to the normal uniform; or "
+       "mixed"},
+      {"table.wall", "mixed", "specularity", "number", "",
+       "share of the hits that are mirrored; the others are diffuse"},
+      {"table.wall", "", "wall", "string", "", "name of the wall; all walls if not given"},
 
       {"table.loop", "", "start", "point", "",
        "where the first piece begins and the last must end"},
@@ -248,7 +256,8 @@ std::string key_table_markdown() {
   // There may be several of these, each under [[its name]].
   const auto heading = [](std::string_view section) {
     const bool list = section == "table.obstacle" || section == "table.hole" ||
-                      section == "table.loop" || section == "injection" || section == "potential";
+                      section == "table.wall" || section == "table.loop" ||
+                      section == "injection" || section == "potential";
     return list ? fmt::format("[[{}]]", section) : std::string(section);
   };
   std::string page;

@@ -29,6 +29,26 @@ HoleSpec read_hole(Value& value, std::size_t index) {
   return hole;
 }
 
+WallLawSpec read_law(Value& value) {
+  const std::string law = read_kind(value, "table.wall", "law", {"specular", "diffuse", "mixed"});
+  TomlSection section(value, "table.wall", law);
+  section.check_keys();
+  WallLawSpec spec;
+  spec.specularity = ExactNumber(law == "specular" ? 1.0 : 0.0);
+  if (law == "mixed") {
+    const Value& given = section.get("specularity");
+    spec.specularity = as_number(given);
+    const double share = spec.specularity.to_double();
+    if (!(share >= 0.0 && share <= 1.0))
+      throw InputError(given.place, "a share is not below 0 nor above 1", "a number from 0 to 1");
+  }
+  if (const Value* wall = section.find("wall")) {
+    spec.wall = as_text(*wall);
+    spec.wall_place = wall->place;
+  }
+  return spec;
+}
+
 ObstacleSpec read_obstacle(Value& value, std::size_t index) {
   using Shape = ObstacleSpec::Shape;
   const std::string shape =
@@ -180,6 +200,10 @@ TableSpec read_table(Value& root) {
     for (std::size_t k = 0; k < holes->items.size(); ++k) {
       spec.holes.push_back(read_hole(holes->items[k], k));
     }
+  }
+  if (Value* laws = section.find("wall")) {
+    as_list(*laws);
+    for (Value& law : laws->items) spec.laws.push_back(read_law(law));
   }
   if (Value* lattice = root.find("lattice")) read_lattice(*lattice, spec);
   return spec;

@@ -1,0 +1,151 @@
+// Walls that reflect at random: Lambert's law, and the same bits however the work is shared.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "carom/analyses/escape.hpp"
+#include "carom/analyses/lyapunov.hpp"
+#include "carom/analyses/run.hpp"
+#include "carom/base/error.hpp"
+#include "carom/certify/certified_orbit.hpp"
+#include "carom/engines/trajectories.hpp"
+#include "carom/files/system_file.hpp"
+#include "carom/geometry/curve_frame.hpp"
+
+namespace carom {
+namespace {
+
+System system_of(const std::string& toml) { return read_system(toml, "test").system; }
+
+const std::string stadium = "[table]\nshape = \"stadium\"\nhalf_length = 1\nradius = 1\n";
+std::string walls(const std::string& law) { return "[[table.wall]]\nlaw = \"" + law + "\"\n"; }
+
+// What leaves a wall.
+class Hits : public Observer {
+ public:
+  explicit Hits(const Table& table) {
+    for (const Wall& wall : table.walls) frames_.push_back(geometry::frame_of(wall.curve));
+  }
+  void hit(const HitEvent& e) override {
+    const geometry::Vector normal =
+        geometry::normal_at(frames_[static_cast<std::size_t>(e.wall)], e.u);
+    const double speed = std::sqrt(dot(e.after, e.after));
+    in.push_back(cross(normal, e.before) / speed);
+    out.push_back(cross(normal, e.after) / speed);
+    flights.push_back(e.flight_time);
+    worst_speed = std::max(worst_speed, std::fabs(speed - 1.0));
+  }
+  std::vector<double> in, out, flights;
+  double worst_speed = 0.0;
+
+ private:
+  std::vector<geometry::CurveFrame> frames_;
+};
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  double aa = 0.0, bb = 0.0, ab = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    aa += a[i] * a[i], bb += b[i] * b[i], ab += a[i] * b[i];
+  return ab / std::sqrt(aa * bb);
+}
+
+// The largest distance of the distribution from a uniform one over (-1, 1), times sqrt(n).
+double kolmogorov(std::vector<double> x) {
+  std::sort(x.begin(), x.end());
+  const auto n = static_cast<double>(x.size());
+  double worst = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    worst = std::max(worst, std::fabs(0.5 * (x[i] + 1.0) - (static_cast<double>(i) + 0.5) / n));
+  return worst * std::sqrt(n);
+}
+
+Hits hits_of(const System& system) {
+  Hits seen(*system.table);
+  for_each_trajectory(system, {0, system.run.trajectories}, seen);
+  return seen;
+}
+
+TEST(Scattering, OfDiffuseWallsForgetsTheWayIn) {
+  const System system =
+      system_of(stadium + walls("diffuse") + "[run]\nt_max = 200\ntrajectories = 200\n");
+  const Hits seen = hits_of(system);
+  const auto n = static_cast<double>(seen.out.size());
+  ASSERT_GT(n, 10000);
+  EXPECT_LT(kolmogorov(seen.out), 1.95);  // exceeded by one in a thousand
+  EXPECT_LT(std::fabs(correlation(seen.in, seen.out)), 3.3 / std::sqrt(n));
+  EXPECT_LT(seen.worst_speed, 1e-14);
+  // Flights have the mean pi A/L whatever walls do, as long as all directions stay equally likely.
+  double sum = 0.0, square = 0.0;
+  for (const double flight : seen.flights) sum += flight, square += flight * flight;
+  const double mean = sum / n, error = std::sqrt((square / n - mean * mean) / n);
+  EXPECT_NEAR(mean, measure(*system.table).mean_flight, 4.0 * error);
+}
+
+TEST(Scattering, OfMixedWallsMirrorsItsShare) {
+  const System system = system_of(stadium + "[[table.wall]]\nlaw = \"mixed\"\nspecularity = 0.3\n" +
+                                  "[run]\nt_max = 200\ntrajectories = 100\n");
+  const Hits seen = hits_of(system);
+  double mirrored = 0.0;
+  for (std::size_t i = 0; i < seen.in.size(); ++i)
+    mirrored += std::fabs(seen.in[i] - seen.out[i]) < 1e-12;
+  const auto n = static_cast<double>(seen.in.size());
+  EXPECT_NEAR(mirrored / n, 0.3, 4.0 * std::sqrt(0.21 / n));
+}
+
+TEST(Scattering, OfOneWallLeavesTheOthersMirrors) {
+  const System system = system_of(
+      "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 2\n[[table.wall]]\nlaw = \"diffuse\"\n"
+      "wall = \"bottom\"\n[run]\nt_max = 50\ntrajectories = 20\n");
+  const Hits seen = hits_of(system);
+  EXPECT_EQ(system.table->walls[0].specularity, 0.0);
+  std::size_t same = 0;
+  for (std::size_t i = 0; i < seen.in.size(); ++i)
+    same += std::fabs(seen.in[i] - seen.out[i]) < 1e-12;
+  EXPECT_GT(same, seen.in.size() / 2);
+  EXPECT_LT(same, seen.in.size());
+}
+
+TEST(Scattering, GivesOneDigestHoweverTheWorkIsShared) {
+  const std::string text =
+      stadium + walls("diffuse") + "[[table.hole]]\nwall = \"bottom\"\ncenter = 0.5\nwidth = 0.3\n";
+  const System system = system_of(text + "[run]\nt_max = 50\ntrajectories = 300\n");
+  const auto digest = [&](int threads, std::uint64_t block) {
+    EscapeOptions how;
+    how.threads = threads;
+    how.block = block;
+    return run_escape(system, how).digest;
+  };
+  const auto one = digest(1, 64);
+  EXPECT_EQ(digest(2, 64), one);
+  EXPECT_EQ(digest(2, 7), one);
+  System mirrors = system_of(stadium +
+                             "[[table.hole]]\nwall = \"bottom\"\ncenter = 0.5\n"
+                             "width = 0.3\n[run]\nt_max = 50\ntrajectories = 300\n");
+  const System specular = system_of(stadium + walls("specular") +
+                                    "[[table.hole]]\nwall = \"bottom\"\ncenter = 0.5\nwidth = 0.3\n"
+                                    "[run]\nt_max = 50\ntrajectories = 300\n");
+  EXPECT_EQ(run_escape(specular).digest, run_escape(mirrors).digest);
+  EXPECT_NE(run_escape(mirrors).digest, one);
+}
+
+TEST(Scattering, IsRefusedWhereItMeansNothing) {
+  const System system = system_of(stadium + walls("diffuse"));
+  EXPECT_THROW(run_lyapunov(system), InputError);
+  EXPECT_THROW(system_of(stadium + walls("diffuse") +
+                         "[[potential]]\nkind = \"harmonic\"\nk = 1\n[integrator]\nstep = 0.01\n")
+                   .run.seed,
+               InputError)
+      << "forces";
+  EXPECT_THROW(system_of(stadium + walls("fuzzy")), InputError);
+  EXPECT_THROW(system_of(stadium + walls("mixed")), InputError);
+  EXPECT_THROW(system_of(stadium + walls("diffuse") + "specularity = 0.5\n"), InputError);
+  EXPECT_THROW(system_of(stadium + "[[table.wall]]\nlaw = \"mixed\"\nspecularity = 1.5\n"),
+               InputError);
+  EXPECT_THROW(system_of(stadium + walls("diffuse") + "wall = \"botom\"\n"), InputError);
+}
+
+}  // namespace
+}  // namespace carom
