@@ -3,7 +3,8 @@
 
     build.py --source TREE --build TREE/build/docs --module TREE/build/release/python
 
-docs/README.md is the table of contents: each of its sections becomes a part of the side bar.
+docs/README.md is the table of contents: each of its sections becomes a part of the side bar. The pages of
+docs/guide/commands are below docs/guide/commands.md.
 """
 
 import argparse
@@ -107,9 +108,16 @@ def contents(page):
     return [(title, pages) for title, pages in sections if pages]
 
 
+def below(root):
+    """The pages of the commands, in the order of docs/guide/commands.md."""
+    page = (root / "docs/guide/commands.md").read_text(encoding="utf-8")
+    return re.findall(r"^\| \[[^\]]*\]\((commands/\w+\.md)\)", page, re.M)
+
+
 def toctree(caption, pages):
     entries = "\n".join(page.removesuffix(".md") for page in pages)
-    return f"\n```{{toctree}}\n:hidden:\n:caption: {caption}\n\n{entries}\n```\n"
+    named = f":caption: {caption}\n" if caption else ""
+    return f"\n```{{toctree}}\n:hidden:\n{named}\n{entries}\n```\n"
 
 
 def python_reference(stage):
@@ -185,6 +193,8 @@ def main():
     trees = toctree("Start", ["contents.md"]) + "".join(toctree(*part) for part in pages)
     for page in [root / "README.md", *sorted((root / "docs").rglob("*.md"))]:
         ending = trees if page == root / "README.md" else ""
+        if page == root / "docs/guide/commands.md":
+            ending = toctree("", below(root))
         if page.parent.name == "tutorials":
             (stage.folder / "guide/tutorials").mkdir(parents=True, exist_ok=True)
             made = notebooks.write(page, stage.folder / "guide/tutorials")

@@ -34,9 +34,10 @@ std::vector<std::string> commands_of(const std::string& text) {
 std::vector<std::string> all_commands() {
   const Shell shell;
   std::string text = text_of(std::filesystem::path(CAROM_SOURCE) / "README.md");
-  for (const auto& page :
-       std::filesystem::directory_iterator(std::filesystem::path(CAROM_SOURCE) / "docs" / "guide"))
-    if (page.path().extension() == ".md") text += "\n" + text_of(page.path());
+  for (const char* folder : {"docs/guide", "docs/guide/commands"})
+    for (const auto& page :
+         std::filesystem::directory_iterator(std::filesystem::path(CAROM_SOURCE) / folder))
+      if (page.path().extension() == ".md") text += "\n" + text_of(page.path());
   for (const char* help : {"--help", "run --help", "section --help"})
     text += "\n" + shell(std::string("$carom ") + help).out;
   return commands_of(text);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks that the sources keep the rules of the tables below: dependencies, packages, lengths, format, one version.
 
-    structure.py includes | umbrella | names | libm | imports | length | format | headers | version  [ROOT]
+    structure.py includes | umbrella | names | libm | imports | length | format | headers | version | paragraphs  [ROOT]
 
 Prints one line for each fault; the exit status is then 1.
 """
@@ -332,9 +332,25 @@ def check_imports(root):
         yield "python/carom: a circle of imports: " + " imports ".join(reversed(circle.args[1]))
 
 
+LONG_PARAGRAPH = 600
+
+
+def check_paragraphs(root):
+    """No paragraph, item of a list or row of a table of README and the guide is long: characters, without links' targets."""
+    for path in [root / "README.md", *sorted((root / "docs/guide").rglob("*.md"))]:
+        text = re.sub(r"^```.*?^```", lambda code: re.sub(r".", "", code[0]), path.read_text(encoding="utf-8"), flags=re.M | re.S)
+        begin = 0
+        for part in re.split(r"(\n\s*\n|\n(?=\||- |#))", text):
+            length = len(re.sub(r"\]\([^)]*\)", "", part))
+            if length > LONG_PARAGRAPH:
+                line = text.count("\n", 0, begin) + 1
+                yield f"{path.relative_to(root).as_posix()}:{line}: {length} characters; at most {LONG_PARAGRAPH}"
+            begin += len(part)
+
+
 SKIPPED = 77
 CHECKS = {"includes": check_includes, "umbrella": check_umbrella, "names": check_names, "libm": check_libm, "imports": check_imports, "length": check_length,
-          "format": check_format, "headers": check_headers, "version": check_version}
+          "format": check_format, "headers": check_headers, "version": check_version, "paragraphs": check_paragraphs}
 
 
 def main(arguments):

@@ -169,6 +169,13 @@ class Version(unittest.TestCase):
                 self.assertTrue(faults("version", files | {name: "none\n"}), name)
 
 
+class Paragraphs(unittest.TestCase):
+    def test_long_ones_are_found(self):
+        short, code = "word " * 100, "```\n" + "word " * 200 + "\n```\n"
+        pages = {"README.md": f"{short}\n\n{short}\n- {short}\n{code}", "docs/guide/tutorials/a.md": f"# A\n\n{short}{short}\n"}
+        self.assertEqual([fault.split(": ")[0] for fault in faults("paragraphs", pages)], ["docs/guide/tutorials/a.md:3"])
+
+
 class Imports(unittest.TestCase):
     def test_a_circle_is_found(self):
         package = "python/carom/"

@@ -42,13 +42,14 @@ void describe_moments(V& v, Sums& sums, const System& system) {
        "2^(32 (first + i) - 1074)"},
       count, [&](std::size_t i) -> auto& { return row(i).square; });
   v.sums(
-      {"fourth_digits", "length^4", "Sum of the fourth powers of their displacements, likewise"},
+      {"fourth_digits", "length^4",
+       "Sum of the fourth powers of their displacements, in the same form"},
       count, [&](std::size_t i) -> auto& { return row(i).fourth; });
   v.sums(
-      {"velocities_digits", "length^2/time^2", "Sum of v(t).v(0), likewise"},
+      {"velocities_digits", "length^2/time^2", "Sum of v(t).v(0), in the same form"},
       count, [&](std::size_t i) -> auto& { return row(i).velocities; });
   v.sums(
-      {"along_digits", "length^2/time", "Sum of v(0).(r(t) - r(0)), likewise"},
+      {"along_digits", "length^2/time", "Sum of v(0).(r(t) - r(0)), in the same form"},
       count, [&](std::size_t i) -> auto& { return row(i).along; });
   if constexpr (V::reads)
     for (std::size_t i = 0; i < count; ++i) sums.merge(i / times, i % times, read[i]);
@@ -77,7 +78,7 @@ void describe_free_paths(V& v, Sums& sums) {
       FreePathSums::groups, [&](std::size_t g) -> auto& { return of(g).hits; });
   v.sums(
       {"path_digits", "length",
-       "Length of all that they flew, without rounding: digits as of /msd_groups"},
+       "Total length of their flights, without rounding: digits as in /msd_groups"},
       FreePathSums::groups, [&](std::size_t g) -> auto& { return of(g).path; });
   const results::CountLabels flights{"length", "Flights of the group in this bin",
                                      "Flights of each group beyond the limit"};

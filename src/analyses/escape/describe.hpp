@@ -73,7 +73,7 @@ void describe(V& v, Result& result, const System& system) {
   v.number({"collisions", "1", "Reflections of all trajectories"}, c.collisions);
   v.kept({"most_hits", "1", "Most reflections of a single trajectory"}, c.most_hits);
   v.kept({"fewest_hits_of_survivor", "1",
-          "Fewest reflections of one that is still there, not pinned; 2^64 - 1: there is none"},
+          "Fewest reflections of a survivor that is not pinned; 2^64 - 1: there is none"},
          c.fewest_hits_of_survivor);
   v.number_if(system.of_discs(), {"contacts", "1", "Contacts of hard discs, each pair once"},
               c.contacts);

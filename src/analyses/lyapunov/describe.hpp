@@ -107,7 +107,7 @@ void describe_drift(V& v, const char* name, Sums& sums) {
   v.sums(
       {name, "1/time, 1/time^2",
        "How much faster deviations grew than in T/4 to T: sums of x in T/64 to T/16, of y in "
-       "T/16 to T/4, of x^2, y^2, xy, likewise"},
+       "T/16 to T/4, of x^2, y^2 and xy; digits as in totals"},
       5, [&](std::size_t i) -> auto& {
         const decltype(&sums.far) all[] = {&sums.far, &sums.near, &sums.far_squares,
                                            &sums.near_squares, &sums.product};
@@ -136,10 +136,11 @@ void describe_spectrum(V& v, Sums& spectrum, const GrowthSums& like) {
   }
   v.sums(
       {"spectrum_totals", "1",
-       "Growth of each length of the frame, and that of the entropy, likewise"},
+       "Growth of each length of the frame, and of the entropy; digits as in totals"},
       count, [&](std::size_t i) -> auto& { return all[i].growth; });
   v.sums(
-      {"spectrum_squares", "1", "Of each, growth^2 over groups of 1, 2, 4 ... blocks, likewise"},
+      {"spectrum_squares", "1",
+       "Their growth^2 over groups of 1, 2, 4 ... blocks; digits as in totals"},
       count * levels, [&](std::size_t i) -> auto& {
         return all[i / levels].levels[i % levels].growth;
       });
@@ -159,7 +160,7 @@ void describe_replicates(V& v, std::vector<GrowthSums::Totals>& parts) {
   if constexpr (V::reads) parts.resize(replicates);
   v.kept_each(
       {"replicate_counts", "1",
-       "Of each replicate of quasi-random starts, in rows: orbits, chaotic, linear, "
+       "Rows, one for each replicate of quasi-random starts: orbits, chaotic, linear, "
        "chaotic_at"},
       replicates * each, [&](std::size_t i) -> auto& {
         GrowthSums::Totals& t = parts[i / each];
@@ -168,7 +169,7 @@ void describe_replicates(V& v, std::vector<GrowthSums::Totals>& parts) {
       });
   v.sums(
       {"replicates", "1",
-       "Of each replicate sums of growth, hits, growth of chaotic orbits, as totals"},
+       "Sums of growth, hits and growth of chaotic orbits of each replicate; digits as in totals"},
       3 * replicates, [&](std::size_t i) -> auto& {
         GrowthSums::Totals& t = parts[i / 3];
         ExactSum* const sums[] = {&t.growth, &t.hits, &t.chaotic_growth};
@@ -188,9 +189,9 @@ void describe_growth(V& v, Sums& growth) {
   v.group("lyapunov_sums",
           "Sums over orbits of the growth of ln|deviation| in blocks of the window");
   v.number({"orbits", "1", "Particles that were followed to the end of the window"}, t.orbits);
-  v.kept({"chaotic", "1", "Of these, found chaotic"}, t.chaotic);
+  v.kept({"chaotic", "1", "Those found chaotic"}, t.chaotic);
   v.kept({"linear", "1",
-          "Of these, deviations had grown no more than linearly; the others are undecided"},
+          "Those whose deviations had grown no more than linearly; the others are undecided"},
          t.linear);
   v.kept({"blocks", "1", "Blocks of the window"}, blocks);
   v.kept_each(
@@ -219,7 +220,8 @@ void describe_growth(V& v, Sums& growth) {
       });
   v.sums(
       {"squares", "1",
-       "Sums of growth^2, growth hits and hits^2 over groups of 1, 2, 4 ... blocks, likewise"},
+       "Sums of growth^2, growth hits and hits^2 over groups of 1, 2, 4 ... blocks; digits as in "
+       "totals"},
       3 * t.levels.size(), [&](std::size_t i) -> auto& {
         GrowthSums::Squares& s = t.levels[i / 3];
         ExactSum* const all[] = {&s.growth, &s.product, &s.hits};

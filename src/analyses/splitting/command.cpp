@@ -201,7 +201,7 @@ std::string splitting_text(const System& system, const SplittingResult& result, 
                   {"p", p_table.value},
                   {"std error", p_table.error},
                   {"extrapolation", p_table.extrapolation},
-                  {"as of trajectories", equivalent}});
+                  {"equivalent", equivalent}});
   if (std::isfinite(extinction))
     text +=
         folded(fmt::format("{:>12.6g}  {} by then: how rare survival is they do not say. More "

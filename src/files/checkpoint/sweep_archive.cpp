@@ -39,12 +39,12 @@ void write_plan(const ArchiveFile& file, const SweepPlan& plan) {
     const char* const key = plan.keys[k].key.c_str();
     keys.emplace_back(key);
     hdf5::write_texts(texts.get(), key, plan.keys[k].values,
-                      {"as of the key", "Its values, in their order"}, name);
+                      {"those of the key", "Its values, in their order"}, name);
     std::vector<double> values;
     for (std::size_t i = 0; i < plan.systems.size(); ++i)
       values.push_back(ExactNumber(plan.at(i)[k]).to_double());
     hdf5::write_column(group.get(), key, std::span<const double>(values),
-                       {"as of the key", "What the key was set to"}, name);
+                       {"those of the key", "What the key was set to"}, name);
   }
   for (const auto& [option, text] : plan.options) options.push_back(option + "=" + text);
   hdf5::write_attribute(group.get(), "keys", keys, name);

@@ -40,7 +40,7 @@ class FieldTable {
     each_field<Fields<FateCounts>>([&](const auto& one) {
       names += (names.empty() ? "`" : ", `") + std::string(one.label.name) + "`";
     });
-    rows_.push_back({names, "1", "Numbers by [fate](#carom-escape)"});
+    rows_.push_back({names, "1", "Numbers by [fate](escape.md#fates)"});
   }
   void head(const std::string& name, const std::string& text, const std::string& unit = "") {
     rows_.push_back({name, unit, text});

@@ -74,7 +74,7 @@ std::vector<double> read_grid(Value& value) {
       std::adjacent_find(times.begin(), times.end(), [](double a, double b) { return !(a < b); });
   if (repeated != times.end())
     throw InputError(count.place,
-                     "so many times between " + shown(first) + " and " + shown(last) +
+                     "that many times between " + shown(first) + " and " + shown(last) +
                          " are closer together than doubles",
                      "fewer times");
   return times;
