@@ -4,7 +4,7 @@
 The blocks of a page run in order, in a folder of their own. A block without a language is output: of the commands in
 its own lines that begin with "$ ", else of the shell or Python block before it. Lines may be left out; "…" stands for
 any text. Seconds, rates and numbers of threads are not compared. --renew writes the lines that have changed anew, each
-in place of the one that it resembles most.
+in place of the one that it resembles most; the pictures of guide/figures that a page shows and its code draws, too.
 """
 
 import argparse
@@ -14,6 +14,7 @@ import io
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -35,13 +36,15 @@ class Page:
         self.program = pathlib.Path(program).resolve()
         self.faults, self.edits, self.names = [], [], {}
 
-    def check(self):
-        """Runs the blocks up to the last output; faults has what differs, edits what would mend it."""
+    def check(self, draw=False):
+        """Runs the blocks up to the last output; faults has what differs, edits what would mend it.
+        If `draw`, runs all and keeps the pictures."""
         blocks = list(BLOCK.finditer(self.text))
         outputs = [i for i, block in enumerate(blocks) if is_output(block[1], block[2])]
         with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
             printed = ""
-            for i, block in enumerate(blocks[: outputs[-1] + 1 if outputs else 0]):
+            shown = re.findall(r"\]\((\.\./figures/(\w[\w-]*\.(?:png|svg)))\)", self.text) if draw else []
+            for i, block in enumerate(blocks[: len(blocks) if shown else outputs[-1] + 1 if outputs else 0]):
                 if i in outputs:
                     self._output(block, printed)
                 elif block[1] == "toml":
@@ -52,6 +55,9 @@ class Page:
                     printed = self._python(block[2])
                 elif block[1] in ("sh", ""):
                     printed = self._shell(block[2])
+            for place, name in shown:
+                if pathlib.Path(name).exists():
+                    shutil.copyfile(name, self.path.parent / place)
         return self
 
     def _shell(self, code):
@@ -118,10 +124,10 @@ def main():
     parser.add_argument("program", help="the program carom")
     parser.add_argument("pages", nargs="*", type=pathlib.Path)
     parser.add_argument("--renew", action="store_true")
-    given = parser.parse_args()
+    given = parser.parse_intermixed_args()
     stale = False
     for path in [page.resolve() for page in given.pages] or PAGES:
-        page = Page(path, given.program).check()
+        page = Page(path, given.program).check(draw=given.renew)
         stale |= bool(page.faults)
         print(*page.faults, sep="\n", end="\n" if page.faults else "", flush=True)
         if given.renew:

@@ -14,10 +14,13 @@ std::string message(const Place& place, const std::string& problem, const std::s
   std::string text = describe(place);
   if (!text.empty()) text += ": ";
   text += problem;
-  if (expected.empty() && nearest.empty()) return text;
+  // A long list of names is of no use beside the right one.
+  constexpr std::size_t long_list = 160;
+  const bool shown = !expected.empty() && (nearest.empty() || expected.size() < long_list);
+  if (!shown && nearest.empty()) return text;
   text += " (";
-  if (!expected.empty()) text += "expected " + expected;
-  if (!expected.empty() && !nearest.empty()) text += "; ";
+  if (shown) text += "expected " + expected;
+  if (shown && !nearest.empty()) text += "; ";
   if (!nearest.empty()) text += "did you mean '" + nearest + "'?";
   return text + ")";
 }

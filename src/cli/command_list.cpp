@@ -4,7 +4,8 @@
 namespace carom::cli {
 
 void define_commands(CLI::App& app, Options& o) {
-  Command(app, o, "escape", "Survival probability and escape rate of an ensemble",
+  constexpr const char *compute = "Compute", *look = "Look", *data = "Data and checks";
+  Command(app, o, compute, "escape", "Measure survival and escape rate of an ensemble",
           "Examples:\n"
           "  carom escape magnetic-square\n"
           "  carom escape mushroom --trajectories 1e6 --times log:1:1000:31 --json\n"
@@ -12,7 +13,7 @@ void define_commands(CLI::App& app, Options& o) {
           "\n"
           "With -o a checkpoint is written every ten seconds: carom escape --resume FILE.h5 goes "
           "on after Ctrl-C, a kill or a full disk, and ends with the same bits.\n"
-          "A closed table is legal: nothing escapes. Exit status 3 if a trajectory could not be "
+          "A closed table is allowed: nothing escapes. Exit status 3 if a trajectory could not be "
           "followed.")
       .system("SYSTEM", "Built-in name or TOML file")
       .settings()
@@ -34,7 +35,7 @@ void define_commands(CLI::App& app, Options& o) {
       .text("--kick", o.kick, "DELTA",
             "With --splitting: the largest kick (default: chosen by a first population)")
       .for_tests("--lookback", o.lookback);
-  Command(app, o, "run", "Follow one trajectory and store every hit",
+  Command(app, o, compute, "run", "Follow one trajectory and store every hit",
           "Examples:\n"
           "  carom run mushroom --trajectory 7 --t-max 100\n"
           "  carom run circle --closed --position 1/10,0 --velocity 1,2 -o orbit.h5\n"
@@ -55,7 +56,7 @@ void define_commands(CLI::App& app, Options& o) {
       .text("--precision", o.precision, "double|certified", "Certified: every digit guaranteed")
       .text("--digits", o.digits, "D", "Guaranteed decimals of a certified run (default 20)")
       .text("--resume", o.resume, "FILE.h5", "Go on with a stored run instead of SYSTEM");
-  Command(app, o, "diffusion", "Mean square displacement and diffusion coefficient of an ensemble",
+  Command(app, o, compute, "diffusion", "Measure the diffusion coefficient of an ensemble",
           "Examples:\n"
           "  carom diffusion lorentz-triangular\n"
           "  carom diffusion lorentz-triangular --set field.B=0.5 --window 20:200 --json\n"
@@ -77,7 +78,7 @@ void define_commands(CLI::App& app, Options& o) {
             "Range of report times from which D and the exponent are computed")
       .free_paths();
   Command(
-      app, o, "lyapunov", "Lyapunov exponents of an ensemble, and its chaotic share",
+      app, o, compute, "lyapunov", "Measure Lyapunov exponents and the chaotic share",
       "Examples:\n"
       "  carom lyapunov stadium --closed\n"
       "  carom lyapunov mushroom --closed --t-max 1e4 --json\n"
@@ -100,13 +101,13 @@ void define_commands(CLI::App& app, Options& o) {
       .text("--window", o.window, "FROM:TO",
             "Times between which the growth is taken (default: the last four fifths of the run)")
       .spectrum();
-  Command(app, o, "returns", "Return times to a wall, in time and in hits",
+  Command(app, o, compute, "returns", "Measure return times to a wall",
           "Examples:\n"
           "  carom returns stadium --closed --on wall:bottom --t-max 1000\n"
           "  carom returns mushroom --closed --on wall:stem_bottom -o returns.h5\n"
           "\n"
-          "Excursions count that begin in the first half of the run, so that each is seen for at "
-          "least half of it.\n"
+          "Only excursions that begin in the first half of the run are counted, so that each is "
+          "seen for at least half of it.\n"
           "Checkpoints, --resume, --shard and mpirun as with carom escape.")
       .system("SYSTEM", "Built-in name or TOML file")
       .settings()
@@ -117,8 +118,7 @@ void define_commands(CLI::App& app, Options& o) {
       .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
       .text("--on", o.on, "wall:NAME", "The wall (carom table lists them)")
       .parts();
-  Command(app, o, "section",
-          "Boundary map, or section by a line, a circle or a velocity, of many orbits",
+  Command(app, o, compute, "section", "Follow many orbits to where they cross a surface",
           "Examples:\n"
           "  carom section ellipse-magnetic --orbits 20 --points 2000 -o section.h5\n"
           "  carom section stadium --closed --on line:0,-1:0,1 --direction positive\n"
@@ -139,7 +139,7 @@ void define_commands(CLI::App& app, Options& o) {
       .text("--points", o.points, "N", "Most points of an orbit (default 1000)")
       .text("--orbits", o.orbits, "N",
             "Number of orbits (default: the listed starts, else at most 50)");
-  Command(app, o, "relax", "Equilibria of the potential energy, and small oscillations about them",
+  Command(app, o, compute, "relax", "Find equilibria and the oscillations about them",
           "Examples:\n"
           "  carom relax wigner\n"
           "  carom relax soft-lorentz --saddles -o equilibria.png\n"
@@ -154,12 +154,12 @@ void define_commands(CLI::App& app, Options& o) {
       .threads()
       .verbose()
       .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)");
-  Command(app, o, "compare", "Compares integrators on a system: error against work",
+  Command(app, o, compute, "compare", "Compare integrators: error against work",
           "Examples:\n"
           "  carom compare henon-heiles\n"
           "  carom compare soft-lorentz --schemes velocity-verlet,ruth-3 --error 1e-4\n"
           "  carom compare wigner --steps 0.1,0.05,0.025 --verbose -o compared.h5\n"
-          "  carom compare stadium --closed --json      free: against exact flights\n"
+          "  carom compare stadium --closed --json      with exact flights\n"
           "\n"
           "Without --t-max the comparison ends before small errors have grown 100 times.\n"
           "carom schemes lists the schemes.")
@@ -176,27 +176,22 @@ void define_commands(CLI::App& app, Options& o) {
       .text("--steps", o.steps, "STEPS",
             "Steps, a,b,c or log:from:to:count (default: ten, halved from one to the next)")
       .text("--tolerances", o.tolerances, "TOLERANCES",
-            "Tolerances of arkode and cvode, likewise (default: 1e-3 to 1e-13)")
+            "Tolerances of arkode and cvode, in the same form (default: 1e-3 to 1e-13)")
       .text("--error", o.error, "X", "Wanted error of the state (default 1e-6)")
       .verbose()
       .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)");
-  Command(app, o, "schemes", "Lists the integrators: order, kind, stages, source",
-          "Examples:\n"
-          "  carom schemes\n"
-          "  carom schemes --json\n"
-          "\n"
-          "[integrator] scheme, or --set integrator.scheme=NAME, chooses one of them.");
-  Command(app, o, "orbit", "Periodic orbits of a free particle, with their stability",
-          "Examples:\n"
-          "  carom orbit three-disc --hits 8\n"
-          "  carom orbit three-disc --hits 11 --zeta\n"
-          "  carom orbit stadium --json\n"
-          "  carom orbit magnetic-square --hits 4 --tries 1e4\n"
-          "\n"
-          "Each orbit is given once, but for its start, reversal and the table's symmetries. Holes "
-          "are closed.\n"
-          "Between discs in the open plane every sequence of discs is tried. Elsewhere recurrences "
-          "of random orbits are: orbits may be missed.")
+  Command(
+      app, o, compute, "orbit", "Find periodic orbits and their stability",
+      "Examples:\n"
+      "  carom orbit three-disc --hits 8\n"
+      "  carom orbit three-disc --hits 11 --zeta\n"
+      "  carom orbit stadium --json\n"
+      "  carom orbit magnetic-square --hits 4 --tries 1e4\n"
+      "\n"
+      "Each orbit is listed once, without other starts, its reversal and symmetric copies. Holes "
+      "are closed.\n"
+      "Between discs in the open plane every sequence of discs is tried. Elsewhere the search "
+      "starts from random orbits that nearly close, and may miss some.")
       .system("SYSTEM", "Built-in name or TOML file")
       .settings()
       .sweep_that_goes_on()
@@ -213,17 +208,7 @@ void define_commands(CLI::App& app, Options& o) {
       .flag("--certify", o.certify, "Prove that each orbit exists, and give its digits")
       .text("--digits", o.digits, "D", "With --certify: guaranteed decimals (default 20)")
       .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)");
-  Command(app, o, "merge", "Merges the parts of an ensemble into one archive",
-          "Examples:\n"
-          "  carom escape stadium --shard 1/2 -o a.h5\n"
-          "  carom escape stadium --shard 2/2 -o b.h5\n"
-          "  carom merge all.h5 a.h5 b.h5     the archive of the whole ensemble\n"
-          "\n"
-          "Parts that overlap or do not match are refused.")
-      .files("FILES", "The archive to be written (or -o FILE.h5), then the parts")
-      .output("FILE.h5", "The archive to be written")
-      .verbose();
-  Command(app, o, "table", "Checks, measures and draws the table",
+  Command(app, o, look, "table", "Check, measure and draw a table",
           "Examples:\n"
           "  carom table stadium\n"
           "  carom table mushroom --set table.stem_width=0.6 -o mushroom.svg\n"
@@ -232,7 +217,7 @@ void define_commands(CLI::App& app, Options& o) {
       .settings()
       .verbose()
       .output("FILE.svg", "Draw the table");
-  Command(app, o, "plot", "The picture of an archive or a system",
+  Command(app, o, look, "plot", "Draw an archive or a system",
           "Examples:\n"
           "  carom plot orbit.h5 -o orbit.pdf\n"
           "  carom plot mushroom -o mushroom.png\n"
@@ -247,7 +232,7 @@ void define_commands(CLI::App& app, Options& o) {
             "Which picture of a result (default: the first that it has)")
       .output("PICTURE", "A name ending in .png, .svg or .pdf");
   Command(
-      app, o, "animate", "The film of a run or of a system's particles",
+      app, o, look, "animate", "Make a film of a run or a system",
       "Examples:\n"
       "  carom animate lorentz-triangular -o lorentz.gif\n"
       "  carom animate wigner -o wigner.mp4\n"
@@ -258,21 +243,37 @@ void define_commands(CLI::App& app, Options& o) {
       "It needs Python with matplotlib; .mp4 needs ffmpeg as well.")
       .system("SOURCE", "Archive of carom run, TOML file or built-in name")
       .output("FILM", "A name ending in .gif or .mp4");
-  Command(app, o, "systems", "Lists the built-in systems; prints one as TOML",
+  Command(app, o, data, "merge", "Add the parts of an ensemble",
+          "Examples:\n"
+          "  carom escape stadium --shard 1/2 -o a.h5\n"
+          "  carom escape stadium --shard 2/2 -o b.h5\n"
+          "  carom merge all.h5 a.h5 b.h5     the archive of the whole ensemble\n"
+          "\n"
+          "Parts that overlap or belong to different ensembles are refused.")
+      .files("FILES", "The archive to be written (or -o FILE.h5), then the parts")
+      .output("FILE.h5", "The archive to be written")
+      .verbose();
+  Command(app, o, data, "systems", "List the built-in systems, or print one",
           "Examples:\n"
           "  carom systems\n"
           "  carom systems mushroom > my-mushroom.toml\n"
           "  carom systems --json")
       .system("NAME", "Built-in system to print");
-  Command(app, o, "validate", "Checks the engine against identities and published values",
+  Command(app, o, data, "schemes", "List the integrators",
+          "Examples:\n"
+          "  carom schemes\n"
+          "  carom schemes --json\n"
+          "\n"
+          "[integrator] scheme, or --set integrator.scheme=NAME, chooses one of them.");
+  Command(app, o, data, "validate", "Check the engine against published values",
           "Examples:\n"
           "  carom validate                  closed tables, published values\n"
           "  carom validate --scale 0.01     a quick look\n"
           "  carom validate --soak --json    the long runs\n"
           "\n"
           "Exit status 3 if a case fails.")
-      .flag("--soak", o.soak, "The long runs: 10^9 hits a closed table, 10^7 a mean flight")
-      .text("--scale", o.scale, "X", "Multiplies the trajectories of each case (default 1)")
+      .flag("--soak", o.soak, "Long runs: 10^9 hits in each closed table, 10^7 for a mean flight")
+      .text("--scale", o.scale, "X", "Factor for the trajectories of each case (default 1)")
       .threads()
       .verbose();
 }

@@ -16,8 +16,9 @@ inline constexpr const char* times_help =
 // The options of one subcommand, all of them text: CLI11 itself would read -5 as 2^64 - 5.
 class Command {
  public:
-  Command(CLI::App& app, Options& options, const char* name, const char* text, const char* details)
-      : app_(app.add_subcommand(name, text)), options_(options) {
+  Command(CLI::App& app, Options& options, const char* group, const char* name, const char* text,
+          const char* details)
+      : app_(app.add_subcommand(name, text)->group(group)), options_(options) {
     app_->footer(details);
     flag("--json", options_.json, "Print one JSON object and nothing else");
     flag("--quiet", options_.quiet, "No progress on standard error");

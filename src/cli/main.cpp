@@ -19,6 +19,7 @@
 #include "cli/common.hpp"
 #include "cli/picture.hpp"
 #include "cli/ranks.hpp"
+#include "cli/reports/aligned.hpp"
 
 namespace {
 
@@ -103,7 +104,9 @@ int main(int argc, char** argv) {
     std::fputs("carom: interrupted before there was anything to show\n", stderr);
     return stopped;
   } catch (const carom::InputError& error) {
-    std::fprintf(stderr, "carom: %s\n", error.what());
+    std::string message = std::string("carom: ") + error.what();
+    if (width_of(message) > 4 * line_width) message = folded(message, "  ");  // a list of names
+    std::fprintf(stderr, "%s\n", message.c_str());
     return bad_input;
   } catch (const std::bad_alloc&) {
     std::fputs("carom: out of memory\n", stderr);

@@ -1,4 +1,4 @@
-# Bits that a certified orbit of the stadium loses: about as many at every hit.
+# Bits that a certified orbit of the stadium loses: about the same number at each hit.
 import matplotlib.pyplot as pyplot
 
 import carom

@@ -1,4 +1,4 @@
-# How long a start on the bottom of the mushroom's stem stays, by place and direction.
+# How long a particle stays that starts on the bottom of the mushroom's stem, by place and direction.
 import carom
 
 grid = {"kind": "birkhoff", "wall": "stem_bottom",

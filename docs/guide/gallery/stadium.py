@@ -1,4 +1,4 @@
-# A chaotic orbit of the stadium, and its section: it bounces between the straight walls for long.
+# A chaotic orbit of the stadium and its section: for a long time it bounces between the straight walls.
 import matplotlib.pyplot as pyplot
 
 import carom

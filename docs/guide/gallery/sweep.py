@@ -1,4 +1,4 @@
-# Diffusion in a Lorentz gas against the magnetic field, with errors.
+# Diffusion coefficient of a Lorentz gas against the magnetic field.
 import matplotlib.pyplot as pyplot
 
 import carom

@@ -1,4 +1,4 @@
-# How often starts between three discs hit before they are gone, on a line of starts: a fractal.
+# Number of hits before a particle escapes from three discs, for starts on a line: a fractal.
 import matplotlib.pyplot as pyplot
 
 import carom
@@ -9,5 +9,5 @@ system = carom.system("three-disc").with_(
 rows = carom.escape(system, trajectories=50_000, per_trajectory=True).per_trajectory
 figure, ax = pyplot.subplots(figsize=(6, 3), layout="constrained")
 ax.plot(rows["x"], rows["hits"], ".", markersize=1.5)
-ax.set(xlabel="x of the start", ylabel="hits until it is gone")
+ax.set(xlabel="x of the start", ylabel="hits before escape")
 figure.savefig("three_discs.png", dpi=100)

@@ -1,4 +1,4 @@
-# Hits between three discs until a start is gone, by its place on a line and its direction: a fractal.
+# The same for starts on a line in all directions.
 import numpy
 
 import carom

@@ -1,4 +1,4 @@
-# Energies of charges in a harmonic well: their sum is kept.
+# Energies of charges in a harmonic well: their sum is conserved.
 import carom
 
 run = carom.run("wigner", t_max=10, sample=0.02)

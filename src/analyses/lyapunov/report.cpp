@@ -72,15 +72,15 @@ std::string why_no_share(const GrowthSums& sums, const LyapunovEstimate& e) {
   const double end = sums.window().to;
   if (sums.totals().chaotic > 0)
     return fmt::format(
-        "a chaotic orbit shows after t = {:.3g} or later, and only runs of three times that tell "
-        "regular orbits from chaotic ones (--t-max {:.0f})",
+        "a chaotic orbit shows itself after t = {:.3g} or so, and only runs three times as long "
+        "can tell regular orbits from chaotic ones (--t-max {:.0f})",
         e.waiting_time, std::ceil(3.2 * e.waiting_time));
   if (e.law == Law::linear)
     return fmt::format(
         "no orbit has shown chaos by t = {:.6g}: they are regular, or their exponents are below "
         "{:.2g}",
         end, e.would_show);
-  return fmt::format("no orbit has shown chaos by t = {:.6g}: longer runs tell (--t-max)", end);
+  return fmt::format("no orbit has shown chaos by t = {:.6g}: longer runs can tell (--t-max)", end);
 }
 
 const char* law_of(const LyapunovEstimate& e) {
@@ -90,19 +90,19 @@ const char* law_of(const LyapunovEstimate& e) {
 void add_notes_of(const RepellerExponent& r, std::vector<std::string>& notes) {
   if (r.drifts())
     notes.push_back(fmt::format(
-        "populations that are kept alive have no exponent yet: {} in the first half of the window "
-        "and {} in the second. The orbits that never leave are regular, or take longer runs",
+        "the exponent of the repeller still drifts: {} in the first half of the window "
+        "and {} in the second. Take a longer run, unless the orbits that never leave are regular",
         with_error(r.early.limit.value, r.early.limit.error),
         with_error(r.late.limit.value, r.late.limit.error)));
   if (r.kicks_cost())
-    notes.push_back(
-        fmt::format("kicked copies do not stay as long as others: the share that is left is off by "
-                    "{}({}) %, and the exponent by an unknown part of that",
-                    in_percent(r.kick_cost.value), in_percent(r.kick_cost.error, 1)));
+    notes.push_back(fmt::format(
+        "kicked copies leave earlier than others: the share of survivors is off by {}({}) %, and "
+        "the exponent by an unknown part of that",
+        in_percent(r.kick_cost.value), in_percent(r.kick_cost.error, 1)));
   if (r.trapped > 0.0)
-    notes.push_back(
-        fmt::format("a share {:.2g} of the starts can never leave: it is not among the populations",
-                    r.trapped));
+    notes.push_back(fmt::format(
+        "a fraction {:.2g} of the starts can never leave; the populations leave them out",
+        r.trapped));
 }
 
 Json repeller_json(const RepellerExponent& r) {
@@ -145,10 +145,10 @@ std::string repeller_text(const RepellerExponent& r) {
                              std::hypot(r.per_hit.limit.error, r.per_hit.extrapolation)));
   return text +
          folded(fmt::format(
-             "The repeller are the orbits that never leave. {} populations of {} "
-             "trajectories at each of three kicks, {:.3g} and its half and quarter, were "
-             "kept alive for {} hits (t = {:.6g}); growth between hits {} and {} (t = "
-             "{:.6g}). 95 %: {:.6g} to {:.6g}.",
+             "95 %: {8:.6g} to {9:.6g}. The repeller is made of the orbits that never leave: {0} "
+             "populations of {1} trajectories, in which survivors are copied with a kick of "
+             "{2:.3g}, its half or its quarter, followed for {3} hits (t = {4:.6g}). Growth is "
+             "taken from hit {5} (t = {7:.6g}) to hit {6}.",
              r.per_time.repetitions, grouped(r.population), r.kick, grouped(r.hits), r.time,
              grouped(r.hits_from), grouped(r.hits), r.time_from, r.per_time.low(),
              r.per_time.high())) +
@@ -164,8 +164,8 @@ std::vector<std::string> notes_of(const System& system, const LyapunovResult& re
     add_notes_of(*result.repeller, notes);
   else if (is_open(system) && 2 * totals.orbits < result.trajectories)
     notes.push_back(fmt::format(
-        "orbits that leave soon after the window are among those that stay: the exponent of the "
-        "orbits that never leave is measured by whole runs of at least {} trajectories",
+        "these orbits stay for the window, but may leave soon after it. The exponent of the orbits "
+        "that never leave takes a whole run of at least {} trajectories",
         grouped(least_of_repeller())));
   if (totals.orbits == 0) return notes;
   if (std::string none = why_no_error(result.growth, e); !none.empty())
@@ -175,7 +175,7 @@ std::vector<std::string> notes_of(const System& system, const LyapunovResult& re
   const std::uint64_t followed = each * totals.orbits, met_none = uncounted(system, result);
   if (const std::uint64_t ended = result.trajectories - met_none - followed; ended > 0) {
     std::string note =
-        fmt::format("{} ended before the end of the window: the numbers are those of {}",
+        fmt::format("{} ended before the end of the window; the numbers are those of {}",
                     counted(ended, "particle"), counted(followed, "other"));
     if (result.capped > 0)
       note += fmt::format("; more --collisions would let {} of them go on", grouped(result.capped));
@@ -187,7 +187,7 @@ std::vector<std::string> notes_of(const System& system, const LyapunovResult& re
         "Take a longer one, or more trajectories");
   if (!of_repeller(result) && e.regular_bias > 0.5 * e.per_time.error)
     notes.push_back(fmt::format(
-        "whether the orbits that have not shown chaos are regular is not known yet: if they are, "
+        "some orbits may be regular or chaotic, the run is too short to tell. If they are regular, "
         "lambda is too large by {:.2g}",
         e.regular_bias));
   if (const std::string note = repeated_starts(system); !note.empty()) notes.push_back(note);
@@ -259,11 +259,12 @@ std::string exponents_text(const System& system, const GrowthSums& sums,
     text += folded(blocks + fmt::format("; for the whole run: {:.2g}", e.per_time.error)) + '\n';
   }
   if (sums.blocks() > 1 && std::isfinite(e.per_time.error))
-    text += folded(fmt::format(
-                "The error knows the stays (near islands, between parallel walls) that {} met. "
-                "Longer and rarer ones are not in it",
-                sums.totals().orbits == 1 ? "this orbit" : "these orbits")) +
-            '\n';
+    text +=
+        folded(fmt::format(
+            "The error covers the stays near islands and between parallel walls that {} met, not "
+            "longer and rarer ones",
+            sums.totals().orbits == 1 ? "this orbit" : "these orbits")) +
+        '\n';
   return text;
 }
 
@@ -271,7 +272,8 @@ std::string distribution_text(const GrowthSums& sums) {
   const auto bins = distribution_of(sums);
   const auto n = static_cast<double>(sums.totals().orbits);
   if (n < 2.0) return {};
-  std::string text = "growth rates of single orbits in this window: a fraction is below the rate\n";
+  std::string text =
+      "growth rates of single orbits: the rate that a fraction of them stays below\n";
   std::vector<std::string> fractions, rates;
   for (const double fraction : {0.01, 0.1, 0.5, 0.9, 0.99}) {
     fractions.push_back(fmt::format("{:g}", fraction));
@@ -297,7 +299,7 @@ std::string regularity_text(const GrowthSums& sums, const LyapunovEstimate& e) {
                                    grouped(t.orbits - t.chaotic - regular));
   if (e.hidden > 0.0)
     orbits += fmt::format(
-        "; the share counts {:.2g} more, of orbits that stick and will show later", e.hidden);
+        "; the share includes {:.2g} for orbits that stick and look regular so far", e.hidden);
   text += folded(orbits) + '\n';
   if (std::isfinite(e.chaotic.value) && t.chaotic < t.orbits)
     text += fmt::format("lambda of the chaotic orbits = {}\n",

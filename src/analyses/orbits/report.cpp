@@ -215,10 +215,11 @@ std::string orbit_text(const System& system, const OrbitSearchResult& result,
   if (result.recurrences > 0)
     starts += fmt::format("{}{} of random orbits", starts.empty() ? "" : " and ",
                           counted(result.recurrences, "recurrence"));
-  text += folded(fmt::format("tried {}: {} led to no orbit, {} to one with a wall in its way",
-                             starts.empty() ? "nothing" : starts, grouped(result.unsolved),
-                             grouped(result.shadowed))) +
-          "\n";
+  text +=
+      folded(fmt::format("searched from {}: {} led to no orbit, {} to an orbit that a wall blocks",
+                         starts.empty() ? "nothing" : starts, grouped(result.unsolved),
+                         grouped(result.shadowed))) +
+      "\n";
   if (result.cycles) text += zeta_text(*result.cycles);
   if (!context.proofs.orbits.empty()) text += proofs_text(context.proofs);
   text +=

@@ -180,9 +180,7 @@ InteractionSpec read_interaction(Value& value, std::size_t particles) {
 ForceSpec read_forces(Value& root, std::size_t particles) {
   ForceSpec spec;
   if (Value* potentials = root.find("potential")) {
-    if (potentials->kind != Value::Kind::list)
-      throw InputError(potentials->place, "potentials are a list of sections",
-                       "[[potential]], with two brackets");
+    as_sections(*potentials, "kind = \"harmonic\"");
     for (Value& potential : potentials->items) spec.potentials.push_back(read_potential(potential));
   }
   if (Value* interaction = root.find("interaction"))

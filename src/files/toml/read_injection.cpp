@@ -50,9 +50,7 @@ std::vector<Injection> read_injections(Value& root, const Table& table,
   std::vector<Injection> injections;
   Value* list = root.find("injection");
   if (list == nullptr) return injections;
-  if (list->kind != Value::Kind::list)
-    throw InputError(list->place, "injections are a list of sections",
-                     "[[injection]], with two brackets");
+  as_sections(*list, "hole = \"hole_1\"");
   double expected = static_cast<double>(particles.size());
   for (Value& one : list->items) {
     injections.push_back(read_injection(one, table, particles.front(), t_max));

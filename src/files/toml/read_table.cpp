@@ -187,16 +187,16 @@ TableSpec read_table(Value& root) {
     }
   }
   if (Value* loops = section.find("loop")) {
-    as_list(*loops);
+    as_sections(*loops, "start = [0, 0]");
     for (Value& loop : loops->items) spec.loops.push_back(read_loop(loop));
   }
   if (Value* obstacles = section.find("obstacle")) {
-    as_list(*obstacles);
+    as_sections(*obstacles, "shape = \"circle\"");
     for (std::size_t k = 0; k < obstacles->items.size(); ++k)
       spec.obstacles.push_back(read_obstacle(obstacles->items[k], k));
   }
   if (Value* holes = section.find("hole")) {
-    as_list(*holes);
+    as_sections(*holes, "wall = \"bottom\"");
     for (std::size_t k = 0; k < holes->items.size(); ++k) {
       spec.holes.push_back(read_hole(holes->items[k], k));
     }

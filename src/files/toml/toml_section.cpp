@@ -108,6 +108,14 @@ const Value& as_list(const Value& value) {
   return value;
 }
 
+const Value& as_sections(const Value& value, const std::string& example) {
+  if (value.kind != Value::Kind::list)
+    throw InputError(
+        value.place, "must be a list of sections, not " + name_of(value.kind),
+        "[[" + value.place.key + "]] with two brackets, and below it, say, " + example);
+  return value;
+}
+
 ExactPoint as_point(const Value& value) {
   if (value.kind != Value::Kind::list || value.items.size() != 2) {
     throw InputError(value.place,

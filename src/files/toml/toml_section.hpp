@@ -31,6 +31,8 @@ geometry::Vector as_vector(const Value& value);
 std::vector<ExactNumber> as_numbers(const Value& value);
 std::vector<ExactPoint> as_points(const Value& value);
 const Value& as_list(const Value& value);
+/// A list of sections [[NAME]]; the message to others shows `example`, the first line of one.
+const Value& as_sections(const Value& value, const std::string& example);
 
 /// A section of the file. Defaults that are asked for are written into it, so that afterwards the
 /// tree is the resolved system.
