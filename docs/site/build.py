@@ -123,9 +123,11 @@ def toctree(caption, pages):
 def python_reference(stage):
     parts = {
         "carom.commands": "Commands",
+        "carom.blocks": "Blocks of hits and of trajectories",
         "carom.system": "Systems",
         "carom.results": "Results",
         "carom.stored": "What all results have",
+        "carom.estimates": "Values with errors",
         "carom.plot": "Pictures",
         "carom.errors": "Errors",
     }

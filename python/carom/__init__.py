@@ -9,8 +9,14 @@
 Every number is made by the same C++ as the program's `carom`, with the same digest.
 """
 
+try:
+    import numpy as _numpy  # noqa: F401: the compiled module fails without it, and does not say why
+except ImportError as _error:
+    raise ImportError("carom needs NumPy (Debian: python3-numpy; pip install numpy)") from _error
+
 from . import _carom, plot
 from .animation import animate
+from .blocks import hits, trajectories
 from .commands import (
     compare,
     diffusion,
@@ -27,6 +33,7 @@ from .commands import (
     validate,
 )
 from .errors import InputError, Place
+from .estimates import Estimate
 from .records import Record
 from .return_times import Returns
 from .results import (

@@ -6,12 +6,14 @@ import numpy
 
 from . import _carom
 from .axes import (
-    COLOURS, colour_of, legend, new_axes, plain, scale_of, style_of, subplots, symbol, title, title_above, with_error,
+    COLOURS, colour_of, legend, new_axes, picture, plain, scale_of, style_of, subplots, symbol, title, title_above,
+    with_error,
 )  # fmt: skip
 from .errors import InputError
 from .tables import table
 
 
+@picture
 def sweep(result, ax=None, y=None, **style):
     """A column of a sweep's table against its key, with error bars; of a plane a map. y: the column
     (default: the first with errors that every value has). Rates and exponents have a marker for each
@@ -34,7 +36,8 @@ def sweep(result, ax=None, y=None, **style):
         values = numpy.full((len(first), len(second)), numpy.nan)
         values[numpy.searchsorted(first, table[keys[0]]), numpy.searchsorted(second, table[keys[1]])] = table[y]
         ax.set_facecolor("0.9")  # no value
-        colours = ax.pcolormesh(first, second, values.T, shading="nearest", norm=scale_of(values))
+        alpha = style_of(style).get("alpha")
+        colours = ax.pcolormesh(first, second, values.T, shading="nearest", norm=scale_of(values), alpha=alpha)
         ax.figure.colorbar(colours, ax=ax, label=symbol(y))
         ax.set(xlabel=symbol(keys[0]), ylabel=symbol(keys[1]))
         for values, scale in ((first, ax.set_xscale), (second, ax.set_yscale)):
@@ -84,65 +87,78 @@ def _geometric(values):
     return ratios.max() < 1.5 * ratios.min()
 
 
-def lyapunov(result, ax=None):
+@picture
+def lyapunov(result, ax=None, **style):
     """How the finite-time exponents of the orbits are distributed, and their mean. Of fewer than ten
-    orbits the exponent of each."""
+    orbits the exponent of each. style: that of the distribution, as color and label."""
     ax = new_axes(ax)
+    mean = {"color": style_of(style).get("color", COLOURS[1]), "alpha": style_of(style).get("alpha")}
+    labelled = style = style_of(style, color=COLOURS[0], linewidth=1)
     bins = result.distribution
     few = bins["count"].sum() < 10
     if few:
         for one in bins[bins["count"] > 0]:
-            ax.axvline((one["from"] + one["to"]) / 2, ymax=0.3, color=COLOURS[0], linewidth=1)
+            ax.axvline((one["from"] + one["to"]) / 2, ymax=0.3, **style)
+            style = {key: one for key, one in style.items() if key != "label"}
         ax.set_yticks([])
     elif len(bins):
         edges, counts = _coarser(bins)
-        ax.stairs(counts / (counts.sum() * numpy.diff(edges)), edges, fill=True, color=COLOURS[0])
+        ax.stairs(counts / (counts.sum() * numpy.diff(edges)), edges, fill=True, **style)
         ax.ticklabel_format(useOffset=False)
     ax.margins(y=0.15)
-    _exponent_line(ax, result, ax.axvline, ax.axvspan)
+    _exponent_line(ax, result, ax.axvline, ax.axvspan, mean)
+    if "label" in labelled:
+        legend(ax, fontsize="small")
     ax.set(xlabel="exponent of an orbit", ylabel="" if few else "density")
     title(ax, result.system)
     return ax
 
 
-def convergence(result, ax=None):
-    """The exponent since the start at growing times, and the one that the run gives."""
+@picture
+def convergence(result, ax=None, **style):
+    """The exponent since the start at growing times, and the one that the run gives. style: that of the line, as
+    color and label."""
     ax = new_axes(ax)
+    own = style_of(style)
+    style = style_of(style, marker="o", markersize=4, color=COLOURS[0])
     points = result.convergence
     if points is not None and len(points):
         t, value, error = points["t"], points["lambda"], numpy.nan_to_num(points["lambda_stderr"])
-        ax.plot(t, value, "o-", markersize=4, color=COLOURS[0])
-        ax.fill_between(t, value - error, value + error, color=COLOURS[0], alpha=0.2, linewidth=0)
+        ax.plot(t, value, **style)
+        ax.fill_between(t, value - error, value + error, color=style["color"], alpha=0.2, linewidth=0)
         ax.set_xscale("log")
-    _exponent_line(ax, result, ax.axhline, ax.axhspan)
+    _exponent_line(ax, result, ax.axhline, ax.axhspan, {"color": own.get("color", COLOURS[1]), "alpha": own.get("alpha")})
     ax.set(xlabel="t", ylabel="λ(t)")
     title(ax, result.system)
     return ax
 
 
-def _exponent_line(ax, result, line, span):
+def _exponent_line(ax, result, line, span, style):
     """The exponent of the run with its error, as `line` and `span` draw it."""
     if result.lambda_ is None:
         return
-    value, error = (result.lambda_[0][key] for key in ("value", "stderr"))
+    value, error = result.lambda_[0]
     known = error is not None and error > 0
-    line(value, color=COLOURS[1], linewidth=1, label=f"λ = {with_error(value, error if known else 0.0)}")
+    line(value, **style, linewidth=1, label=f"λ = {with_error(value, error if known else 0.0)}")
     if known:
-        span(value - error, value + error, color=COLOURS[1], alpha=0.2, linewidth=0)
+        span(value - error, value + error, color=style["color"], alpha=0.2, linewidth=0)
     legend(ax, fontsize="small")
 
 
-def spectrum(result, ax=None):
-    """All exponents, the largest first, with their errors."""
+@picture
+def spectrum(result, ax=None, **style):
+    """All exponents, the largest first, with their errors; style: that of the points, as color and label."""
     ax = new_axes(ax)
     values = result.spectrum
     if values is not None:
         number = numpy.arange(1, len(values) + 1)
         ax.axhline(0, color="0.8", linewidth=0.8, zorder=0)
         ax.errorbar(
-            number, values["value"], yerr=values["stderr"], fmt="o", markersize=4, capsize=2,
-            linewidth=1, color=COLOURS[0],
-            label=f"entropy {result.entropy.value:.4g}: sum of the positive ones",
+            number, values["value"], yerr=values["stderr"], fmt="o", capsize=2,
+            **style_of(
+                style, markersize=4, linewidth=1, color=COLOURS[0],
+                label=f"entropy {with_error(*result.entropy)}: sum of the positive ones",
+            ),
         )  # fmt: skip
         legend(ax, fontsize="small")
         ax.xaxis.get_major_locator().set_params(integer=True)
@@ -160,13 +176,15 @@ def _coarser(bins):
     return edges, numpy.add.reduceat(bins["count"], starts)
 
 
-def orbits(result, ax=None, most=12):
+@picture
+def orbits(result, ax=None, most=12, **style):
     """Periodic orbits, the first `most` of them, each in a table of its own with its word, period and the
     larger multiplier; with `ax` all in one. Of families one member, dashed. Of a lattice all cells that
-    an orbit crosses."""
+    an orbit crosses. style: that of the lines, as color."""
     shown = result.json["orbits"][:most]
+    style = style_of(style, linewidth=0.9)
     if ax is not None:
-        _orbits(result, ax, range(len(shown)))
+        _orbits(result, ax, range(len(shown)), style)
         title(ax, result.system)
         return ax
     across = max(1, min(4, len(shown)))
@@ -176,7 +194,7 @@ def orbits(result, ax=None, most=12):
         place.remove()
     for number, one in enumerate(shown):
         place = axes.flat[number]
-        _orbits(result, place, [number])
+        _orbits(result, place, [number], style)
         place.set(xticks=[], yticks=[], xlabel="", ylabel="")
         place.spines[:].set_visible(False)
         real, imaginary = one["multipliers"][0]
@@ -186,12 +204,13 @@ def orbits(result, ax=None, most=12):
         place.set_title(text, fontsize="small")
     title_above(figure, result.system)
     if not shown:
-        _orbits(result, axes[0, 0], [])
+        _orbits(result, axes[0, 0], [], style)
     return axes.flatten()[: max(1, len(shown))]
 
 
-def _orbits(result, ax, numbers):
+def _orbits(result, ax, numbers, style):
     """The table with some of the orbits."""
+    style = dict(style)
     cells = {(0, 0)}
     for number in numbers:
         steps = [point.get("step", (0, 0)) for point in result.json["orbits"][number]["points"]]
@@ -204,12 +223,19 @@ def _orbits(result, ax, numbers):
         path = _carom.path(result.paths[number], omega)
         family = result.json["orbits"][number]["family"]
         colour = colour_of(number, len(numbers)) if len(numbers) > 1 else COLOURS[0]
-        ax.plot(path["x"], path["y"], color=colour, linewidth=0.9, zorder=2, linestyle="--" if family else "-")
+        usual = {"color": colour, "zorder": 2, "linestyle": "--" if family else "-"}
+        ax.plot(path["x"], path["y"], **(usual | style))
+        if style.pop("label", None):
+            legend(ax)
 
 
-def comparison(result, ax=None, of="error_state"):
+@picture
+def comparison(result, ax=None, of="error_state", **style):
     """Error against work: a line for each scheme, in colour by order; dashed: adaptive. Other
-    errors by `of`. A dotted line is the wanted error, the grey band what the reference cannot tell."""
+    errors by `of`. A dotted line is the wanted error, the grey band what the reference cannot tell.
+    style: that of the lines; a label stands before the names of the schemes."""
+    style = style_of(style, markersize=3.5, linewidth=1)
+    label = style.pop("label", None)
     ax = new_axes(ax, (6.6, 4.6))
     runs = result.schemes
     orders = {row["scheme"]: row["stated"] for row in result.measured}
@@ -221,10 +247,11 @@ def comparison(result, ax=None, of="error_state"):
         colour = COLOURS[steps.index(order) % len(COLOURS)] if order in steps else COLOURS[-1]
         used[colour] = used.get(colour, -1) + 1
         adaptive = "tolerance" in runs.dtype.names and (rows["tolerance"] > 0).any()
-        ax.plot(
-            rows["force_evaluations"], rows[of], "--" if adaptive else "-", color=colour, label=name,
-            marker=markers[used[colour] % len(markers)], markersize=3.5, linewidth=1,
-        )  # fmt: skip
+        usual = {
+            "color": colour, "linestyle": "--" if adaptive else "-", "label": f"{label}: {name}" if label else name,
+            "marker": markers[used[colour] % len(markers)],
+        }  # fmt: skip
+        ax.plot(rows["force_evaluations"], rows[of], **(usual | style))
     if of == "error_state":
         ax.axhline(result.error, color="0.5", linewidth=0.8, linestyle=":")
         ax.axhspan(0, result.reference.error, color="0.92", linewidth=0)
@@ -238,19 +265,21 @@ def comparison(result, ax=None, of="error_state"):
     return ax
 
 
-def equilibria(found, ax=None, most=4):
+@picture
+def equilibria(found, ax=None, most=4, **style):
     """The places of the particles at the lowest equilibria, over the level lines of the potential, each in
-    a picture of its own; with `ax` the lowest one."""
+    a picture of its own; with `ax` the lowest one. style: that of the dots, as color and label."""
+    style = style_of(style, color=COLOURS[0], marker="o", markersize=6, linestyle="", markeredgecolor="white")
     shown = found.equilibria[: most if ax is None else 1]
     if ax is not None:
-        _equilibrium(found, ax, shown)
+        _equilibrium(found, ax, shown, style)
         title(ax, found.system)
         return ax
     many = max(1, len(shown))
     figure, axes = subplots(1, many, figsize=(max(3.6, 2.4 * many), 3.2), squeeze=False)
     axes = axes.flatten()
     for number, place in enumerate(axes):
-        _equilibrium(found, place, shown[number : number + 1], shown)
+        _equilibrium(found, place, shown[number : number + 1], style, shown)
         place.set(ylabel="" if number else "y", title="")
     for one, place in zip(shown, axes):
         place.set_title(f"{one.kind}\nE = {one.energy:.8g}", fontsize="small")
@@ -258,7 +287,7 @@ def equilibria(found, ax=None, most=4):
     return axes
 
 
-def _equilibrium(found, ax, shown, others=()):
+def _equilibrium(found, ax, shown, style, others=()):
     """Particles at an equilibrium; the picture has room for those of the others, too."""
     if shown and not len(found.system.walls):
         places = numpy.concatenate([numpy.array(one.positions) for one in (*shown, *others)])
@@ -268,4 +297,6 @@ def _equilibrium(found, ax, shown, others=()):
         ax.margins(0.0)
     table(found.system, ax=ax, names=False, directions=False, starts=0)
     for one in shown:
-        ax.plot(*numpy.array(one.positions).T, "o", color=COLOURS[0], markersize=6, zorder=5, markeredgecolor="white")
+        ax.plot(*numpy.array(one.positions).T, **({"zorder": 5} | style))
+    if shown and "label" in style:
+        legend(ax)

@@ -79,7 +79,7 @@ def animate(
 
 def _stage(run, where):
     """The table, with room for all places of the particles: of a lattice the cells that they visit."""
-    cells = {(0, 0), *zip(run.samples["cell_first"].tolist(), run.samples["cell_second"].tolist())}
+    cells = {(0, 0), *zip(run._samples["cell_first"].tolist(), run._samples["cell_second"].tolist())}
     cells |= set(zip(run.hits["cell_first"][:2000].tolist(), run.hits["cell_second"][:2000].tolist()))
     cells = cells if len(cells) <= 400 else [(0, 0)]
     ax = table(run.system, names=False, cells=cells, levels=False, directions=False, starts=0)

@@ -1,11 +1,13 @@
 """Axes, titles, colours and texts of pictures."""
 
-import math
+import functools
 import textwrap
+from typing import Any, Callable, TypeVar, cast
 
 import numpy
 
-from .errors import printable
+from .errors import InputError, nearest, printable
+from .estimates import rounded
 
 #: Seven colours that can be told apart by people who see few of them (Okabe and Ito).
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
@@ -79,16 +81,8 @@ def symbol(name):
 
 def with_error(value, error):
     """A value with its error to two digits, both rounded at the same place: 0.34285(54)."""
-    if not error or not math.isfinite(error):
-        return f"{value:.5g}"
-    digits = 1 - math.floor(math.log10(error))
-    if round(error, digits) >= 10 ** (2 - digits):
-        digits -= 1
-    if digits < 0 or digits > 8:
-        power = math.floor(math.log10(max(abs(value), error)))
-        return rf"{with_error(value / 10.0**power, error / 10.0**power)}·10$^{{{power}}}$"
-    last = round(error * 10**digits)
-    return f"{value:.{digits}f}({last if digits else round(error)})"
+    text, power = rounded(value, error)
+    return rf"{text}·10$^{{{power}}}$" if power else text
 
 
 def title_of(system, width=56):
@@ -106,12 +100,50 @@ def title_above(figure, system):
     figure.suptitle(title_of(system, max(24, int(11 * figure.get_size_inches()[0]))), fontsize=9)
 
 
+Drawing = TypeVar("Drawing", bound=Callable[..., Any])
+
+
+def picture(function: Drawing) -> Drawing:
+    """A function that draws what it is given; of other things it says which pictures there are."""
+
+    @functools.wraps(function)
+    def draw(thing, *arguments, **keywords):
+        try:
+            return function(thing, *arguments, **keywords)
+        except AttributeError as error:
+            there = getattr(thing, "_pictures", dict)()
+            name = function.__name__
+            if name in there or function in there.values() or draw in there.values():
+                raise
+            of = f"carom.{type(thing).__name__}" if hasattr(thing, "_pictures") else printable(repr(thing))
+            expected = ", ".join(f"carom.plot.{one}" for one in there) or "a result or a system"
+            raise InputError(
+                f"carom.plot.{name} cannot draw {of}; what can be drawn: {expected}", ("", 0, 0, name), expected
+            ) from error
+
+    return cast(Drawing, draw)
+
+
 def style_of(keywords, **usual):
     """Keywords of a line for matplotlib, under any of its names for them; `usual` where none are given."""
     from matplotlib.cbook import normalize_kwargs
     from matplotlib.lines import Line2D
 
+    for key in keywords:
+        if not hasattr(Line2D, f"set_{key}"):
+            known = ("color", "label", "linewidth", "linestyle", "alpha", "marker", "markersize", "zorder")
+            near = nearest(key, known)
+            hint = f"; did you mean '{near}'?" if near else ""
+            raise InputError(f"pictures have no keyword '{key}'{hint}", ("", 0, 0, key), ", ".join(known), near)
     return usual | normalize_kwargs(keywords, Line2D)
+
+
+def dots_of(style):
+    """The style of a line for `scatter`."""
+    names = {"color": "color", "label": "label", "alpha": "alpha", "zorder": "zorder", "marker": "marker"}
+    dots = {names[key]: one for key, one in style.items() if key in names}
+    dots["linewidths"] = style.get("linewidth", 0)
+    return dots | ({"s": style["markersize"] ** 2} if "markersize" in style else {})
 
 
 def legend(ax, *entries, **keywords):

@@ -3,14 +3,13 @@ command is a keyword: `t_max=100`, `B=0.5`, `trajectories=10**6`, `integrator={"
 
 import json
 import os
-import sys
-import time
-from typing import Any, Callable, Union
+from typing import Any, Callable, Optional, Union
 
 import numpy
 
 from . import _carom, records, results, stored, toml
 from .errors import InputError, text_of
+from .progress import Progress, progress_of, shown
 from .return_times import Returns
 from .sweep import Sweep, Swept
 from .system import System, load, system
@@ -31,74 +30,13 @@ def _as_system(thing):
     return load(text) if "/" in text or text.endswith(".toml") else system(text)
 
 
-class _Line:
-    """How far it is, on one line of a terminal."""
-
-    def __init__(self):
-        self.last = time.monotonic()
-        self.shown = False
-
-    def __call__(self, share, done):
-        if time.monotonic() - self.last < 0.5:
-            return
-        self.last = time.monotonic()
-        self.shown = True
-        sys.stderr.write(f"\r{100 * share:5.1f} %  {done} done ")
-        sys.stderr.flush()
-
-    def close(self):
-        if self.shown:
-            sys.stderr.write("\r\033[K")
-
-
-class _Bar:
-    """The same by tqdm."""
-
-    def __init__(self, tqdm):
-        self.bar = tqdm(total=1.0, bar_format="{percentage:3.0f} %|{bar}| {elapsed}<{remaining}")
-
-    def __call__(self, share, done):
-        self.bar.update(share - self.bar.n)
-
-    def close(self):
-        self.bar.close()
-
-
-def _progress(progress):
-    if callable(progress):
-        return progress
-    if progress is None:
-        progress = sys.stderr.isatty()
-    if not isinstance(progress, bool):
-        raise InputError(
-            f"'progress' is {progress!r}", ("", 0, 0, "progress"), "True, False, None, or a function of (share, done)"
-        )
-    if not progress:
-        return None
-    try:
-        from tqdm.auto import tqdm
-    except ImportError:
-        return _Line()
-    return _Bar(tqdm)
-
-
-def _shown(progress, function, *arguments):
-    """Calls a function of the compiled module with its progress shown."""
-    shown = _progress(progress)
-    try:
-        return function(*arguments, progress=shown)
-    finally:
-        if hasattr(shown, "close"):
-            shown.close()
-
-
 def _compute(kind, function, thing, command, keywords, progress, *arguments):
     of = _as_system(thing)
     if keywords.get("sweep") is not None:
         return _sweep(kind, function, of, command, keywords, progress, *arguments)
     keywords.pop("sweep", None)
     loaded = of._loaded(command, **keywords)
-    outcome, error = _shown(progress, function, loaded, *arguments)
+    outcome, error = shown(progress, function, loaded, *arguments)
     if error is None and hasattr(outcome, "check"):
         outcome.check()  # as the program, which ends with status 1
     result = kind(outcome, of._keeping(keywords))
@@ -111,20 +49,20 @@ def _compute(kind, function, thing, command, keywords, progress, *arguments):
 def _sweep(kind, function, of, command, keywords, progress, *arguments):
     keywords = dict(keywords)
     swept = Swept(of, command, keywords, keywords.pop("sweep"))
-    shown = _progress(progress)
+    show = progress_of(progress)
     results_, error = [], None
     try:
         for i, (system_, loaded) in enumerate(swept.systems):
             part = None
-            if shown:
-                part = lambda share, done, i=i: shown((i + share) / len(swept.systems), done)  # noqa: E731
+            if show:
+                part = lambda share, done, i=i: show((i + share) / len(swept.systems), done)  # noqa: E731
             outcome, error = function(loaded, *arguments, progress=part)
             results_.append(kind(outcome, system_))
             if error is not None:
                 break
     finally:
-        if hasattr(shown, "close"):
-            shown.close()
+        if hasattr(show, "close"):
+            show.close()
     result = Sweep(swept.outcome(results_), swept.system, results_)
     if error is not None:
         error.result = result
@@ -133,7 +71,6 @@ def _sweep(kind, function, of, command, keywords, progress, *arguments):
 
 
 Systems = Union[System, str, "os.PathLike[str]"]
-Progress = Union[bool, None, Callable[[float, int], object]]
 
 
 def escape(
@@ -149,7 +86,7 @@ def escape(
     system: a System, the name of a built-in one, or a system file. Keywords: keys of a system file
     (t_max: time, trajectories, seed, times, B, larmor_radius: length, speed: length/time, initial,
     …) and threads, isa, engine. progress: True, False, a function of (share, number done), or
-    None: on a terminal. per_trajectory: keeps the start and the end of each.
+    None: on a terminal and in notebooks. per_trajectory: keeps the start and the end of each.
     window=(from, to): times (time) between which the decay is fitted.
 
     sweep={"field.B": values}: a `carom.Sweep`, a result for each value of a key; values are numbers
@@ -205,22 +142,35 @@ def returns(system: Systems, *, on: str, progress: Progress = None, **keywords: 
 
 
 def run(
-    system: Systems, *, state_error: bool = True, progress: Progress = None, **keywords: Any
+    system: Systems,
+    *,
+    state_error: bool = True,
+    on_hit: Optional[Callable[[numpy.ndarray], object]] = None,
+    progress: Progress = None,
+    **keywords: Any,
 ) -> Union[results.Run, results.Certified]:
     """One trajectory, followed closely: a `carom.Run`.
 
     position (length, 2 numbers), velocity (length/time): a start; else `initial` of the system,
     drawn with `trajectory` (0). collisions, t_max (time): when it ends. sample (time): between
     stored states. state_error: estimates the error of the state under forces, which costs up to
-    three times the run. precision="certified", digits=30: a `carom.Certified`, every digit of
-    which is guaranteed.
+    three times the run. on_hit: called some times a second with the hits since the last call, an array as
+    `carom.Run.hits`; `carom.hits` gives them without keeping them. precision="certified", digits=30: a
+    `carom.Certified`, every digit of which is guaranteed.
     """
+    if on_hit is not None and not callable(on_hit):
+        raise InputError(f"'on_hit' is {on_hit!r}", ("", 0, 0, "on_hit"), "a function of an array of hits")
     precision = keywords.get("precision")
     if (precision is not None and text_of(precision, "precision") != "double") or keywords.get("digits") is not None:
+        if on_hit is not None:
+            raise InputError(
+                "on_hit does not go with certified digits", ("", 0, 0, "on_hit"), "a run in doubles"
+            )
         return _compute(
             results.Certified, _carom.run_certified, system, "run", keywords, progress
         )
-    return _compute(results.Run, _carom.run, system, "run", keywords, progress, state_error)
+    told = None if on_hit is None else lambda rows: on_hit(rows.view(records.Rows))
+    return _compute(results.Run, _carom.run, system, "run", keywords, progress, state_error, told)
 
 
 def compare(
@@ -312,7 +262,7 @@ def validate(
     KeyboardInterrupt, whose `result` holds the cases that were finished.
     """
     threads = "" if threads is None else toml.bare(threads, "threads")
-    outcome, error = _shown(progress, _carom.validate, soak, toml.bare(scale, "scale"), threads)
+    outcome, error = shown(progress, _carom.validate, soak, toml.bare(scale, "scale"), threads)
     result = results.Validation(outcome)
     if error is not None:
         error.result = result

@@ -35,6 +35,17 @@ def path_of(path):
     return text
 
 
+def nearest(word, names):
+    """The name that was meant, "" if none is near: one that only differs in its case, or the shortest that begins so,
+    or one that is near by its letters."""
+    names, low = list(names), word.lower()
+    same = [name for name in names if name.lower() == low]
+    begin = [name for name in names if name.lower().startswith(low)]
+    if same or len(begin) == 1 or (begin and len(word) > 2):
+        return min(same or begin, key=len)
+    return _carom.nearest_name(word, names)
+
+
 class Place(NamedTuple):
     """Where a value was written; line and column count from 1, 0: unknown."""
 

@@ -20,10 +20,13 @@ def read(source):
 def draw(source, what=None):
     """The figure of what is read; `what`: which of those that there are."""
     thing = read(source)
-    if not carom.plot.pictures(thing):
+    there = carom.plot.pictures(thing)
+    if not there:
         raise carom.InputError(
             f"{source}: a certified run has no picture", (source, 0, 0, ""), "the same run in doubles"
         )
+    if what is not None and what not in there:
+        raise carom.plot.no_picture(source, what, there)
     return carom.plot.result(thing, what=what).figure
 
 

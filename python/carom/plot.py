@@ -15,7 +15,9 @@ from .analyses import comparison, convergence, equilibria, lyapunov, orbits, spe
 from .axes import COLOURS, STYLE
 from .axes import colour_of as _colour_of
 from .axes import legend as _legend
+from .axes import dots_of as _dots_of
 from .axes import new_axes as _new_axes
+from .axes import picture as _picture
 from .axes import plain as _plain
 from .axes import pyplot as _pyplot
 from .axes import style_of as _style_of
@@ -26,6 +28,7 @@ from .axes import title_above as _title_above
 from .axes import title_of as _title_of
 from .axes import with_error as _with_error
 from .errors import InputError, text_of
+from .errors import nearest as _nearest
 from .tables import WALL as _WALL
 from .tables import arrow as _arrow
 from .tables import draw_levels as _levels
@@ -35,22 +38,24 @@ from .tables import table
 from .transport import correlation, diffusion, free_paths, returns
 
 __all__ = (
-    "STYLE basins comparison convergence correlation diffusion distances energy equilibria escape exponents free_paths lyapunov"
-    " orbit orbits pictures rate result returns section spectrum survival sweep table times"
+    "STYLE basins comparison convergence correlation diffusion distances energy equilibria escape exponents free_paths"
+    " lyapunov orbit orbits pictures rate result returns section spectrum splitting survival sweep table times"
 ).split()
 
 
+@_picture
 def orbit(run, ax=None, most_hits=2000, names=False, by="particle", **style):
     """The table with the orbit of each particle, from a dot to a ring: arcs are arcs, and an arrow
     shows the direction. Coloured by "particle" or by "time"; style: that of the lines, as color."""
     hits = run.hits[: most_hits * len(run.starts)]
     cells = {(0, 0)}
-    for rows in (hits, run.samples):
+    for rows in (hits, run._samples):
         cells |= set(zip(rows["cell_first"].tolist(), rows["cell_second"].tolist()))
     cells = cells if len(cells) <= 400 else [(0, 0)]
     made = ax is None
     style = _style_of(style, linewidth=0.7, alpha=0.85)
     colour = style.pop("color", None)
+    labelled = "label" in style
     ax = table(run.system, ax=_new_axes(ax), names=names, cells=cells, levels=False, directions=False, starts=0)
     particles = sorted(set(run.starts["particle"].tolist()))
     drawn = False
@@ -66,7 +71,8 @@ def orbit(run, ax=None, most_hits=2000, names=False, by="particle", **style):
             lines.append(path)
             kept = "black"
         else:
-            ax.plot(path["x"], path["y"], color=kept, zorder=2, **style)
+            ax.plot(path["x"], path["y"], **({"color": kept, "zorder": 2} | style))
+            style.pop("label", None)
         ax.plot(path["x"][:1], path["y"][:1], "o", color=kept, markersize=4, zorder=5)
         ax.plot(path["x"][-1:], path["y"][-1:], "o", color=kept, markersize=5, zorder=5, markerfacecolor="white")
         _direction(ax, path, kept)
@@ -75,13 +81,15 @@ def orbit(run, ax=None, most_hits=2000, names=False, by="particle", **style):
         disc = _pyplot().Circle((start["x"], start["y"]), radius, color=shade, alpha=0.3, linewidth=0)
         ax.add_patch(disc)
     if by == "time":
-        _by_time(lines, ax)
+        _by_time(lines, ax, style)
+    if labelled:
+        _legend(ax)
     if drawn:
         ax.annotate(
             f"the first {most_hits} hits", (1, 0), xycoords="axes fraction", fontsize="x-small",
             ha="right", va="bottom", color="0.4",
         )  # fmt: skip
-    if run.engine != "events" and not len(run.samples):
+    if run.engine != "events" and not len(run._samples):
         ax.annotate(
             "straight between hits: no samples", (0, 1), xycoords="axes fraction", xytext=(3, -3),
             textcoords="offset points", fontsize="x-small", ha="left", va="top", color="0.4",
@@ -107,7 +115,7 @@ def _size(ax):
     return max(float(numpy.diff(ax.get_xlim())[0]), float(numpy.diff(ax.get_ylim())[0]))
 
 
-def _by_time(lines, ax):
+def _by_time(lines, ax, style):
     """Paths in colours of their times, with the scale beside them."""
     from matplotlib.collections import LineCollection
 
@@ -115,36 +123,47 @@ def _by_time(lines, ax):
     for path in lines:
         points = numpy.stack([path["x"], path["y"]], axis=1)
         pieces = LineCollection(
-            list(numpy.stack([points[:-1], points[1:]], axis=1)), cmap="viridis", linewidths=0.8, zorder=2
-        )
+            list(numpy.stack([points[:-1], points[1:]], axis=1)), cmap="viridis", zorder=2,
+            **{key: one for key, one in style.items() if key in ("alpha", "label", "linewidth", "linestyle")},
+        )  # fmt: skip
         pieces.set_array(path["t"][:-1])
         pieces.set_clim(0.0, last)
         ax.add_collection(pieces)
     ax.figure.colorbar(pieces, ax=ax, shrink=0.8).ax.set_title("t", fontsize="medium")
 
 
-def energy(run, ax=None):
+@_picture
+def energy(run, ax=None, **style):
     """Energies along the run at the times of its samples: the parts, and below them how far their
-    sum is from its start."""
-    rows = run.energies
+    sum is from its start; with `ax` the parts. style: that of all lines, which then differ by their dashes; a
+    label stands before the names of the parts."""
+    rows = run._energies
     if not len(rows):
-        raise ValueError("no energies: they need forces or hard discs, and run.sample")
+        raise InputError("no energies are stored: they need forces or hard discs, and carom.run(…, sample=0.1)",
+                         ("", 0, 0, "sample"), "a run with sample")  # fmt: skip
+    style = _style_of(style, linewidth=1)
+    before = f"{style.pop('label')}: " if "label" in style else ""
+    axes = ax
     if ax is None:
-        _, (ax, below) = _subplots(2, 1, figsize=(5.0, 4.2), sharex=True, height_ratios=(2, 1))
-        below.plot(rows["t"], rows["total"] - rows["total"][0], color=_WALL, linewidth=0.8)
+        _, axes = _subplots(2, 1, figsize=(5.0, 4.2), sharex=True, height_ratios=(2, 1))
+        ax, below = axes
+        below.plot(rows["t"], rows["total"] - rows["total"][0], **({"color": _WALL} | style | {"linewidth": 0.8}))
         below.set(xlabel="t", ylabel="change of total")
     else:
         ax.set_xlabel("t")
-    for name, shade in zip(("kinetic", "external", "pair", "total"), (*COLOURS[:3], _WALL)):
+    dashes = ("--", ":", "-.", "-") if "color" in style else 4 * ("-",)
+    for name, shade, dash in zip(("kinetic", "external", "pair", "total"), (*COLOURS[:3], _WALL), dashes):
         if name in ("kinetic", "total") or rows[name].any():
-            ax.plot(rows["t"], rows[name], color=shade, linewidth=1, label=name)
+            usual = {"color": shade, "linestyle": dash, "label": before + name}
+            ax.plot(rows["t"], rows[name], **(usual | style))
     ax.set_ylabel("energy")
     ax.margins(y=0.1)
     _legend(ax, fontsize="small", ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0))
     ax.set_title(_title_of(run.system), pad=22, fontsize=9)
-    return ax
+    return axes
 
 
+@_picture
 def survival(result, ax=None, scale="log", **style):
     """p(t) with its 95 % interval, and the decay that was fitted, in its window; scale of time: "log"
     (for tails) or "linear" (for rates); style: that of the line, as color and label."""
@@ -187,6 +206,7 @@ def _decay(ax, fit):
     _legend(ax, fontsize="x-small")
 
 
+@_picture
 def rate(result, ax=None, scale=None, **style):
     """The escape rate −dp/dt with its 95 % interval; scale of time: "log" or "linear", if not given
     what its range asks for; style: that of the line, as color and label."""
@@ -202,11 +222,14 @@ def rate(result, ax=None, scale=None, **style):
     return ax
 
 
-def basins(result, ax=None, colour=None, x=None, y=None, size=None):
+@_picture
+def basins(result, ax=None, colour=None, x=None, y=None, size=None, **style):
     """Starts with per_trajectory, coloured by what becomes of them: "hole", "time" (of the end) or
     "hits"; of exponents also "lambda" or "sali". x and y: columns of its rows, as "x", "y", "vx",
     "vy"; if not given s and v_parallel of starts on one wall in a grid, else the plane. Starts that
-    lie on no wall have no s and v_parallel: they are left out with a warning, and refused where all do."""
+    lie on no wall have no s and v_parallel: they are left out with a warning, and refused where all do.
+    style: alpha and label; with color all starts are dots of one colour."""
+    style = _style_of(style)
     rows = result.per_trajectory
     if rows is None:
         raise ValueError("no starts are stored: carom.escape(…, per_trajectory=True)")
@@ -231,10 +254,15 @@ def basins(result, ax=None, colour=None, x=None, y=None, size=None):
     from matplotlib.colors import ListedColormap, LogNorm, Normalize
 
     size = size or float(numpy.clip(6e4 / max(1, len(rows)), 0.1, 20.0))
-    if colour == "hole":
+    if "color" in style:
+        dots = {"s": size, "zorder": 1, "rasterized": len(rows) > 5000}
+        ax.scatter(rows[x], rows[y], **(dots | _dots_of(style)))
+        if "label" in style:
+            _legend(ax)
+    elif colour == "hole":
         shades = ["0.8", *(COLOURS[i % len(COLOURS)] for i in range(len(result.system.holes)))]
         norm = Normalize(-1.5, len(shades) - 1.5)
-        _cover(ax, rows[x], rows[y], rows["hole"], norm, ListedColormap(shades), size)
+        _cover(ax, rows[x], rows[y], rows["hole"], norm, ListedColormap(shades), size, style)
         for number, name in enumerate(["none", *result.system.holes], -1):
             if (rows["hole"] == number).any():
                 ax.scatter([], [], color=shades[number + 1], s=20, label=_plain(name))
@@ -246,7 +274,7 @@ def basins(result, ax=None, colour=None, x=None, y=None, size=None):
         wide = len(seen) and seen.max() > 20 * seen.min()
         norm = LogNorm(seen.min(), seen.max()) if wide else Normalize()
         values = numpy.maximum(values, seen.min()) if wide else values
-        drawn = _cover(ax, rows[x], rows[y], values, norm, "viridis", size)
+        drawn = _cover(ax, rows[x], rows[y], values, norm, "viridis", size, style)
         label = {"time": "time of the end", "hits": "hits", "lambda": "λ", "sali": "SALI"}[colour]
         ax.figure.colorbar(drawn, ax=ax, label=label, shrink=0.9)
     _title(ax, result.system)
@@ -276,7 +304,7 @@ def _lines_of(places):
     return steps * step, which
 
 
-def _cover(ax, x, y, values, norm, cmap, size):
+def _cover(ax, x, y, values, norm, cmap, size, style):
     """Colours at points: cells where these are a grid, else dots."""
     columns, i = _lines_of(x)
     lines, j = _lines_of(y)
@@ -285,13 +313,14 @@ def _cover(ax, x, y, values, norm, cmap, size):
         cells[j, i] = values
         if not numpy.isnan(cells).any():
             return ax.pcolormesh(
-                columns, lines, cells, norm=norm, cmap=cmap, shading="nearest", zorder=1, rasterized=True
-            )
-    return ax.scatter(
-        x, y, c=values, norm=norm, cmap=cmap, s=size, linewidths=0, zorder=1, rasterized=len(x) > 5000
-    )
+                columns, lines, cells, norm=norm, cmap=cmap, shading="nearest", zorder=1, rasterized=True,
+                alpha=style.get("alpha"),
+            )  # fmt: skip
+    dots = {"s": size, "zorder": 1, "rasterized": len(x) > 5000}
+    return ax.scatter(x, y, c=values, norm=norm, cmap=cmap, **(dots | _dots_of(style)))
 
 
+@_picture
 def escape(result, ax=None, **style):
     """Survival twice: against log t (power laws are straight) and against t (exponentials are); with `ax`
     against log t."""
@@ -304,10 +333,28 @@ def escape(result, ax=None, **style):
     return axes
 
 
-def section(result, ax=None, x=None, y=None):
+@_picture
+def splitting(result, ax=None, **style):
+    """Survival by splitting with its 95 % interval, against time or the number of hits, and the decay that was
+    fitted; style: that of the line, as color and label."""
+    ax = _new_axes(ax)
+    x, name = ("n", "survival_hits") if "survival_hits" in result.json else ("t", "survival")
+    rows = [row for row in result.json[name] if row["value"]]
+    places, values, low, high = ([row[key] for row in rows] for key in (x, "value", "low", "high"))
+    _with_band(ax, places, values, low, high, style)
+    _decay(ax, result.fit)
+    ax.set(yscale="log", xlabel="hits" if x == "n" else x, ylabel=f"p({x})")
+    _title(ax, result.system)
+    return ax
+
+
+@_picture
+def section(result, ax=None, x=None, y=None, **style):
     """Points in colour by orbit: (s, v∥) over the walls, one after the other, or along a line or
-    circle; (x, y) for a condition on the velocity. Other columns by `x` and `y`."""
+    circle; (x, y) for a condition on the velocity. Other columns by `x` and `y`. style: that of the dots, as
+    color, label and markersize."""
     ax = _new_axes(ax, (6.0, 4.2))
+    style = _style_of(style)
     points = result.points
     at_walls = len(points) == 0 or (points["wall"] >= 0).all()
     if x is None and at_walls:
@@ -333,24 +380,31 @@ def section(result, ax=None, x=None, y=None):
     orbits = points["orbit"].astype(int)
     colours = numpy.array(COLOURS)[orbits % len(COLOURS)]
     size = float(numpy.clip(2e4 / max(1, len(points)), 0.05, 6.0))
-    ax.scatter(across, up, s=size, c=colours, linewidths=0, rasterized=len(points) > 20000)
+    dots = {"s": size, "rasterized": len(points) > 20000} | ({} if "color" in style else {"c": colours})
+    ax.scatter(across, up, **(dots | _dots_of(style)))
+    if "label" in style:
+        _legend(ax)
     ax.set(xlabel=_symbol(label_x), ylabel=_symbol(label_y))
     if not (1 < len(result.system.walls) <= 12 and at_walls):
         _title(ax, result.system)
     return ax
 
 
-def distances(result, ax=None):
+@_picture
+def distances(result, ax=None, **style):
     """How far each case of `carom.validate` is from its expected value, in standard errors; the bands are one and
-    three. Of independent cases without bias 68 % and 99.7 % lie in them."""
+    three. Of independent cases without bias 68 % and 99.7 % lie in them. style: that of the cases that passed."""
+    style = _style_of(style, color=COLOURS[0], marker="o", linestyle="")
     ax = _new_axes(ax, (8.0, 3.6))
     cases = result.cases[(result.cases["error"] > 0) | (result.cases["expected_error"] > 0)]
     for reach, colour in ((3, "#e8eff5"), (1, "#c9dcec")):
         ax.axhspan(-reach, reach, color=colour, linewidth=0, zorder=0)
     place = numpy.arange(len(cases))
-    for passed, colour in ((True, COLOURS[0]), (False, "#b3261e")):
+    for passed, look in ((True, style), (False, style | {"color": "#b3261e", "label": None})):
         these = cases["passed"] == passed
-        ax.plot(place[these], numpy.clip(cases["sigma"][these], -5, 5), "o", color=colour)
+        ax.plot(place[these], numpy.clip(cases["sigma"][these], -5, 5), **look)
+    if "label" in style:
+        _legend(ax)
     ax.set(ylim=(-5.5, 5.5), xlabel="case", ylabel="distance / standard error")
     return ax
 
@@ -361,6 +415,14 @@ def pictures(result):
     return getattr(result, "_pictures", dict)()
 
 
+def no_picture(thing, what, there):
+    """The error for a name that is none of the pictures `there`."""
+    names = " or ".join(there)
+    return InputError(
+        f"{thing} has no picture '{what}': choose {names}", ("", 0, 0, "what"), names, _nearest(what, there)
+    )
+
+
 def result(result, ax=None, what=None, **keywords):
     """A picture of a result: the one named `what` of `carom.plot.pictures(result)`, else the first."""
     there = pictures(result)
@@ -368,8 +430,5 @@ def result(result, ax=None, what=None, **keywords):
         raise NotImplementedError(f"a {type(result).__name__} has no picture")
     what = text_of(what, "what") if what is not None else next(iter(there))
     if what not in there:
-        nearest = _carom.nearest_name(what, list(there))
-        raise InputError(
-            f"a {type(result).__name__} has no picture '{what}'", ("", 0, 0, "what"), " or ".join(there), nearest
-        )
+        raise no_picture(f"a carom.{type(result).__name__}", what, there)
     return there[what](result, ax=ax, **keywords)

@@ -2,24 +2,30 @@
 
 import html
 import json
+import keyword
 import os
 import tempfile
 from typing import Any
 
 import numpy
 
-from . import _carom
-from .errors import printable
+from . import _carom, plot
+from .errors import InputError, nearest, printable
+from .estimates import Estimate
 
 
 class Record:
-    """A few named numbers: `D.value`, also `D["value"]`."""
+    """A few named numbers: `paths.limit`, also `paths["limit"]`."""
 
     def __init__(self, entries):
         self.__dict__.update({key: python_of(value) for key, value in entries.items()})
+        for key, value in entries.items():
+            error = entries.get(f"{key}_stderr")
+            if _is_number(value) and _is_number(error):
+                self.__dict__[key] = Estimate(value, error)
 
     def __getattr__(self, key: str) -> Any:
-        raise AttributeError(f"no '{key}' among {', '.join(self.__dict__)}")
+        raise AttributeError(f"no '{key}' among {', '.join(self.__dict__)}{_hint(key, self.__dict__)}")
 
     def __getitem__(self, key: str) -> Any:
         return self.__dict__[key]
@@ -29,16 +35,91 @@ class Record:
         return self.__dict__.keys()
 
     def __repr__(self):
-        return "(" + ", ".join(f"{key}={value!r}" for key, value in self.__dict__.items()) + ")"
+        return "(" + ", ".join(f"{key}={_short(value)}" for key, value in self.__dict__.items()) + ")"
 
     def __eq__(self, other):
-        return isinstance(other, Record) and repr(self) == repr(other)
+        return isinstance(other, Record) and _exact(self) == _exact(other)
+
+
+class Fit(Record):
+    """A decay: its law, with what is certain about it."""
+
+    def __init__(self, entries):
+        super().__init__(entries)
+        for key in ("rate", "exponent"):
+            if _is_number(entries.get(key)) and _is_number(entries.get("stderr")):
+                self.__dict__[key] = Estimate(entries[key], entries["stderr"])
+
+    def __repr__(self):
+        if self.model is None:
+            return f"no law: {self.reason}"
+        key = "rate" if "rate" in self.__dict__ else "exponent"
+        kind = f"{self.model}, a local slope" if self.__dict__.get("local_slope") else self.model
+        text = f"{kind}: {key} = {self[key]}"
+        if "window" in self.__dict__:
+            text += " from {:.6g} to {:.6g}".format(*self.window)
+        said = [f"amplitude = {self.amplitude}"] if "amplitude" in self.__dict__ else []
+        said += [f"plateau = {self.plateau}"] if self.__dict__.get("plateau") else []
+        said += [f"p = {self.p_value:.2g}"] if _is_number(self.__dict__.get("p_value")) else []
+        others = [one["model"] for one in self.__dict__.get("alternatives", ())]
+        said += ["decided" if self.decided else "undecided" + (f", or {' or '.join(others)}" if others else "")]
+        return f"{text}\n{', '.join(said)}"
+
+
+def _is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _short(value):
+    """A value of a record on a few characters."""
+    if isinstance(value, numpy.ndarray) and value.dtype.names:
+        return f"<{_carom.counted(len(value), 'row')} of {', '.join(value.dtype.names)}>"
+    if isinstance(value, list):
+        texts = [_short(one) for one in value[:4]] + (["…"] if len(value) > 4 else [])
+        return "[" + ", ".join(texts) + "]"
+    if isinstance(value, Fit):
+        return "(" + repr(value).replace("\n", ", ") + ")"
+    return f"{value:.6g}" if type(value) is float else repr(value)
+
+
+def _exact(value):
+    """All digits, as something that can be compared."""
+    if isinstance(value, (Record, Estimate)):
+        return {key: _exact(one) for key, one in value.__dict__.items()}
+    return repr(value.tolist() if isinstance(value, numpy.ndarray) else value)
+
+
+def _hint(key, names):
+    near = nearest(key, names)
+    return f"; did you mean '{near}'?" if near else ""
+
+
+class Rows(numpy.ndarray):
+    """A structured array of NumPy whose columns are plain arrays; a row of a value and its error is an
+    Estimate, and a wrong name has a hint."""
+
+    def __getitem__(self, key):
+        names = self.dtype.names
+        if isinstance(key, str) and names and key not in names:
+            raise InputError(
+                f"no column '{key}' among {', '.join(names)}{_hint(key, names)}", ("", 0, 0, key), ", ".join(names),
+                nearest(key, names),
+            )  # fmt: skip
+        part = super().__getitem__(key)
+        if isinstance(part, numpy.void) and names == ("value", "stderr"):
+            value, error = part.tolist()
+            return Estimate(value, None if error != error else error)
+        return part.view(numpy.ndarray) if isinstance(key, str) else part
 
 
 def python_of(value):
     """A value of JSON with records and arrays in place of objects and lists of objects."""
     if isinstance(value, dict):
-        return Record(value)
+        if _is_number(value.get("value")) and "stderr" in value:
+            more = {key: python_of(one) for key, one in value.items() if key not in ("value", "stderr")}
+            return Estimate(value["value"], value["stderr"], **more)
+        is_fit = "model" in value and ("decided" in value or value["model"] is None)
+        return Fit(value) if is_fit else Record(value)
     if isinstance(value, list) and value and all(isinstance(one, dict) for one in value):
         return array_of(value)
     return value
@@ -69,7 +150,7 @@ def table_of(rows, unknown=()):
     columns = columns_of(rows)
     columns.update((key, (("f8",), columns[key][1])) for key in unknown)
     dtype = [(key, *kind) for key, (kind, _) in columns.items()]
-    return numpy.array(list(zip(*(column for _, column in columns.values()))), dtype)
+    return numpy.array(list(zip(*(column for _, column in columns.values()))), dtype).view(Rows)
 
 
 def columns_of(rows):
@@ -186,16 +267,20 @@ class Report:
     def __getattr__(self, key: str) -> Any:
         entries = self.__dict__.get("_json")
         if entries is None or key not in entries:
-            names = list(entries or ())
-            nearest = _carom.nearest_name(key, names)
-            hint = f"; did you mean '{nearest}'?" if nearest else ""
-            raise AttributeError(f"{type(self).__name__} has no '{key}'{hint}")
+            names = [name for name in dir(self) if not name.startswith("_") and not keyword.iskeyword(name)]
+            raise AttributeError(f"{type(self).__name__} has no '{key}'{_hint(key, names)}")
         if entries[key] == [] and key in self._COLUMNS:
-            return numpy.empty(0, self._COLUMNS[key])
+            return numpy.empty(0, self._COLUMNS[key]).view(Rows)
         return python_of(entries[key])
 
     def __dir__(self):
-        return [*super().__dir__(), *self._json]
+        return [*super().__dir__(), *self.__dict__.get("_json", ())]
+
+    def plot(self, ax=None, **keywords):
+        """Draws what there is to see with a function of `carom.plot`; returns its axes, or an array of them
+        where the picture has several. `what` chooses among pictures; `ax`, color, label, linewidth and alpha are
+        matplotlib's."""
+        return plot.result(self, ax=ax, **keywords)
 
     def to_dataframe(self):
         """The main table as a pandas.DataFrame (Debian: python3-pandas)."""

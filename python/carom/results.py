@@ -2,6 +2,7 @@
 lengths, times and masses as its file means them."""
 
 import decimal
+import warnings
 from typing import Any, Optional
 
 import numpy
@@ -9,8 +10,12 @@ import numpy
 from . import _carom, plot
 from ._carom import counted
 from .errors import InputError
-from .records import Record, Report, table_of
+from .records import Record, Report, Rows, table_of
 from .stored import OfSystem, Result
+
+
+def _rows(array):
+    return None if array is None else array.view(Rows)
 
 
 class Table(OfSystem):
@@ -33,7 +38,7 @@ class Table(OfSystem):
     def walls(self) -> numpy.ndarray:
         """(number of walls,): as above; NaN where a wall has no such number (length, radians)."""
         rows = self._json["walls"]
-        return table_of(rows) if rows else numpy.empty(0, self._COLUMNS["walls"])
+        return table_of(rows) if rows else numpy.empty(0, self._COLUMNS["walls"]).view(Rows)
 
     def _pictures(self):
         return {"table": lambda of, **keywords: plot.table(of.system, **keywords)}
@@ -58,10 +63,6 @@ class Validation(Report):
     def _summary(self):
         return f"{self.passed} passed, {self.failed} failed"
 
-    def plot(self, ax=None):
-        """Draws how far each case is from its expected value."""
-        return plot.distances(self, ax=ax)
-
     def _main(self):
         return self._json["cases"]
 
@@ -73,6 +74,9 @@ class Splitting(OfSystem):
     extrapolation, kick_error, low, high (95 %), at_kicks; t is a time, n a number of hits, rates are
     shares per time. fit: the decay at late times or hits, as of `carom.Escape`.
     """
+
+    def _pictures(self):
+        return {"survival": plot.splitting}
 
     def _summary(self):
         return f"{self.levels}, {counted(self.repetitions, 'population')} of {self.population}"
@@ -117,7 +121,7 @@ class Escape(Result, archive="escape"):
 
     @property
     def per_trajectory(self) -> Optional[numpy.ndarray]:
-        return self._outcome.trajectories()
+        return _rows(self._outcome.trajectories())
 
     per_trajectory.__doc__ = _PER_TRAJECTORY
 
@@ -142,7 +146,7 @@ class Diffusion(Result, archive="diffusion"):
         return {"diffusion": plot.diffusion, "correlation": plot.correlation} | more
 
     def _summary(self):
-        return f"{counted(self.trajectories, 'trajectory')}, D = {self.D!r}"
+        return f"{counted(self.trajectories, 'trajectory')}, D = {self.D}"
 
     def _main(self):
         return self.msd
@@ -178,7 +182,7 @@ class Lyapunov(Result, archive="lyapunov"):
 
     @property
     def per_trajectory(self) -> Optional[numpy.ndarray]:
-        return self._outcome.trajectories()
+        return _rows(self._outcome.trajectories())
 
     per_trajectory.__doc__ = _PER_TRAJECTORY.replace(
         "else NaN.",
@@ -198,7 +202,7 @@ class Lyapunov(Result, archive="lyapunov"):
 
     def _summary(self):
         largest = self.lambda_[0] if self.lambda_ is not None else None
-        return f"{counted(self.orbits, 'orbit')}, lambda = {largest!r}"
+        return f"{counted(self.orbits, 'orbit')}, lambda = {largest}"
 
     def _main(self):
         return self.distribution
@@ -220,7 +224,7 @@ class Run(Result, archive="run"):
         after the hit, cell_first, cell_second (cell of the lattice), reflections (1, or n at a
         corner of angle π/n).
         """
-        return self._outcome.hits()
+        return self._outcome.hits().view(Rows)
 
     @property
     def samples(self) -> numpy.ndarray:
@@ -229,7 +233,18 @@ class Run(Result, archive="run"):
         particle, t (time), x, y (length, in the plane), vx, vy (length/time), cell_first,
         cell_second.
         """
-        return self._outcome.samples()
+        return self._asked_for(self._samples)
+
+    @property
+    def _samples(self):
+        return self._outcome.samples().view(Rows)
+
+    def _asked_for(self, rows):
+        """The same; where they are none because nobody has asked for them, with a warning."""
+        if not len(rows) and not len(self._samples):
+            warnings.warn("no samples are stored: carom.run(…, sample=0.1) stores the state at every 0.1 of time",
+                          stacklevel=3)  # fmt: skip
+        return rows
 
     @property
     def contacts(self) -> numpy.ndarray:
@@ -240,7 +255,7 @@ class Run(Result, archive="run"):
         that touch), first_vx, first_vy, second_vx, second_vy (length/time) after the contact,
         transfer (momentum along the line of centres).
         """
-        return self._outcome.contacts()
+        return self._outcome.contacts().view(Rows)
 
     @property
     def energies(self) -> numpy.ndarray:
@@ -250,13 +265,17 @@ class Run(Result, archive="run"):
         t (time), kinetic, external, pair, total (energy), px, py (momentum), angular_momentum
         (about the origin).
         """
-        return self._outcome.energies()
+        return self._asked_for(self._energies)
+
+    @property
+    def _energies(self):
+        return self._outcome.energies().view(Rows)
 
     @property
     def starts(self) -> numpy.ndarray:
         """The start of each particle, (particles,): columns and units (time, length, length/time) as
         of `samples`."""
-        return self._outcome.starts()
+        return self._outcome.starts().view(Rows)
 
     def path(self, particle: int = 0) -> numpy.ndarray:
         """Points along the orbit of a particle, (points,): t (time), x, y (length, in the plane).
@@ -272,7 +291,7 @@ class Run(Result, archive="run"):
         rows = [self.starts[self.starts["particle"] == particle]]
         names = ["t", "x", "y", "vx", "vy"]
         if self.engine != "events":
-            rows.append(self.samples[self.samples["particle"] == particle])
+            rows.append(self._samples[self._samples["particle"] == particle])
         rows.append(self.hits[self.hits["particle"] == particle])
         parts = [numpy.stack([r[n] for n in names], axis=1) for r in rows]
         for which in ("first", "second"):
@@ -286,7 +305,7 @@ class Run(Result, archive="run"):
         return table[numpy.argsort(table[:, 0], kind="stable")]
 
     def _pictures(self):
-        return {"orbit": plot.orbit} | ({"energy": plot.energy} if len(self.energies) else {})
+        return {"orbit": plot.orbit} | ({"energy": plot.energy} if len(self._energies) else {})
 
     def _summary(self):
         return f"{self.status}, {counted(self.collisions, 'collision')}"
@@ -424,7 +443,7 @@ class Section(Result, archive="section"):
         circle), v_parallel (length/time, in the direction of s), x, y (length, in the plane), vx,
         vy (length/time, after the hit at a wall).
         """
-        return self._outcome.points()
+        return self._outcome.points().view(Rows)
 
     def _pictures(self):
         return {"section": plot.section}

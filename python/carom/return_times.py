@@ -20,7 +20,7 @@ class Returns(Result, archive="returns"):
         return {"returns": plot.returns}
 
     def _summary(self):
-        return f"{counted(self.excursions, 'excursion')} from {self.wall}, mean time {self.mean_time!r}"
+        return f"{counted(self.excursions, 'excursion')} from {self.wall}, mean time {self.mean_time}"
 
     def _main(self):
         return self.return_times

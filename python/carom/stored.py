@@ -3,7 +3,7 @@
 import os
 import tempfile
 
-from . import _carom, plot
+from . import _carom
 from .errors import InputError, path_of
 from .records import Report, outcome_of
 from .system import System
@@ -26,10 +26,6 @@ class OfSystem(Report):
 
     def _made_of(self):
         return (self._system,)
-
-    def plot(self, ax=None, **keywords):
-        """Draws what there is to see with a function of `carom.plot`; returns the axes."""
-        return plot.result(self, ax=ax, **keywords)
 
 
 def check_archive(path):

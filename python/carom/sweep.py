@@ -6,6 +6,7 @@ import numpy
 
 from . import _carom, plot, toml
 from .errors import InputError, text_of
+from .records import Rows
 from .stored import Result, opened
 from .system import _SECTION_OF, System
 
@@ -88,7 +89,7 @@ class Sweep(Result, archive="sweep"):
         `_stderr`, in the units of the command's own results; NaN: there is none."""
         if self._table is None:
             columns = {name: numpy.asarray(column) for name, column in self._outcome.table().items()}
-            self._table = numpy.empty(len(self), dtype=[(name, one.dtype) for name, one in columns.items()])
+            self._table = numpy.empty(len(self), dtype=[(name, one.dtype) for name, one in columns.items()]).view(Rows)
             for name, one in columns.items():
                 self._table[name] = one
         return self._table
@@ -117,10 +118,6 @@ class Sweep(Result, archive="sweep"):
 
     def _pictures(self):
         return {"sweep": plot.sweep}
-
-    def plot(self, ax=None, y=None):
-        """A column of the table against the key, with error bars; of a plane a map."""
-        return plot.sweep(self, ax=ax, y=y)
 
     def _summary(self):
         return f"{_carom.counted(len(self), 'value')} of {', '.join(key['key'] for key in self._json['keys'])}"

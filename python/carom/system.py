@@ -1,9 +1,12 @@
 """Systems: a table with its field, particles, forces and run, as a system file describes them."""
 
+import functools
+import inspect
 import json
+from typing import Any, Callable, TypeVar, cast
 
 from . import _carom, plot, toml
-from .errors import InputError, path_of, printable, text_of
+from .errors import InputError, nearest, path_of, printable, text_of
 
 _KEYS = _carom.keys()
 _SECTIONS = {section.split(".")[0] for section, *_ in _KEYS if section} | {"initial", "table"}
@@ -26,9 +29,8 @@ _ALL_OPTIONS = {name: valued for options in _OPTIONS.values() for name, valued i
 _HELD = ("position", "velocity", "engine", "isa", "threads", "trajectory")
 
 
-def is_of_a_system(key):
-    """Does a system hold it? The other keywords say how one command computes."""
-    return key in _SECTION_OF or key in _SECTIONS or key == "angle" or key in _HELD
+#: Keywords that a system holds; the others say how one command computes.
+OF_A_SYSTEM = frozenset((*_SECTION_OF, *_SECTIONS, *_HELD, "angle"))
 
 
 def function_of(command):
@@ -40,7 +42,7 @@ def _check(key, command):
     """Throws InputError for a keyword that means nothing to a command; without a command: to a system."""
     text_of(key, "keyword")
     if command is None:
-        known = {key for key in (*_SECTION_OF, *_SECTIONS, *_HELD, "angle")}
+        known = set(OF_A_SYSTEM)
         what = "a system"
     else:
         keys = {key for key in (*_SECTION_OF, *_SECTIONS, "angle") if key not in _ALL_OPTIONS}
@@ -49,15 +51,15 @@ def _check(key, command):
     if key in known:
         return
     others = [function_of(other) for other, options in _OPTIONS.items() if key in options]
-    nearest = _carom.nearest_name(key, sorted(known))
-    hint = f"; did you mean '{nearest}'?" if nearest else ""
+    near = _carom.nearest_name(key, sorted(known))
+    hint = f"; did you mean '{near}'?" if near else ""
     problem = (
         f"'{key}' means nothing to {what}: it is a keyword of {', '.join(others)}"
         if others
         else f"{what} has no keyword '{key}'"
     )
     expected = "a key of a system file" + (f" or an option of {what}" if command else "")
-    raise InputError(problem + hint, ("", 0, 0, key), expected, nearest)
+    raise InputError(problem + hint, ("", 0, 0, key), expected, near)
 
 
 def _typed(key, given):
@@ -106,6 +108,37 @@ def _changes(keywords, command=None):
     return changes, options
 
 
+Made = TypeVar("Made", bound=Callable[..., Any])
+
+
+def _of_keywords(function: Made) -> Made:
+    """What makes a system of keywords: wrong ones have a hint, and errors speak of keywords."""
+    parameters = inspect.signature(function).parameters
+    names = [name for name in parameters if name != "self"]
+    others = any(one.kind is one.VAR_KEYWORD for one in parameters.values())
+
+    @functools.wraps(function)
+    def make(*arguments, **keywords):
+        for key in () if others else keywords:
+            if key not in names:
+                near = nearest(key, names)
+                hint = f"; did you mean '{near}'?" if near else ""
+                problem = f"carom.{function.__name__} has no keyword '{key}'{hint}"
+                raise InputError(problem, ("", 0, 0, key), ", ".join(names), near)
+        try:
+            return function(*arguments, **keywords)
+        except InputError as error:
+            whole = error.place.key
+            key = whole.rpartition(".")[2]
+            if key == whole or key.partition("[")[0] not in {*names, *keywords}:
+                raise
+            raise InputError(
+                str(error).replace(whole, key, 1), ("", 0, 0, key), error.expected, error.nearest
+            ) from None
+
+    return cast(Made, make)
+
+
 class System:
     """A system: what a system file says, and what was changed since. It does not change itself.
 
@@ -129,7 +162,7 @@ class System:
 
     def _keeping(self, keywords):
         """The same system with those keywords of a command that a system holds."""
-        return self.with_(**{key: value for key, value in keywords.items() if is_of_a_system(key)})
+        return self.with_(**{key: value for key, value in keywords.items() if key in OF_A_SYSTEM})
 
     def _held_beside(self, keywords):
         """What stays of what the system holds: a start as a whole takes the place of that before."""
@@ -152,6 +185,7 @@ class System:
         self._loaded("table")
         return self
 
+    @_of_keywords
     def hole(self, wall, center=None, width=None, name=None, **keys) -> "System":
         """An opening of that width in a wall, its middle at the arc length `center` (lengths)."""
         return self._append(
@@ -160,6 +194,7 @@ class System:
             )
         )
 
+    @_of_keywords
     def obstacle(self, shape, name=None, **keys) -> "System":
         """A hard obstacle: "circle" {center, radius}, "ellipse" {center, a, b, angle} or
         "polygon" {points}; lengths and radians."""
@@ -265,11 +300,12 @@ def load(path) -> System:
     path = path_of(path)
     written = _carom.read_text(path)
     text: str | bytes = written
+    name = path if "/" in path or "." in path else f"./{path}"  # other names are those of systems
     try:
         text = written.decode()
     except UnicodeDecodeError:  # where it is no text is told by what reads it
         pass
-    return System(text, path)._checked()
+    return System(text, name)._checked()
 
 
 def system(name: str) -> System:
@@ -277,11 +313,9 @@ def system(name: str) -> System:
     texts = dict(_carom.systems())
     name = text_of(name, "name")
     if name not in texts:
-        nearest = _carom.nearest_name(name, list(texts))
-        hint = f", did you mean '{nearest}'?" if nearest else ""
-        raise InputError(
-            f"there is no system '{name}'{hint}", ("", 0, 0, name), ", ".join(texts), nearest
-        )
+        near = _carom.nearest_name(name, list(texts))
+        hint = f", did you mean '{near}'?" if near else ""
+        raise InputError(f"there is no system '{name}'{hint}", ("", 0, 0, name), ", ".join(texts), near)
     return System(texts[name], name)
 
 
@@ -294,71 +328,84 @@ def _shape(shape, **keys):
     return System(toml.section("table", {"shape": shape, **keys}), shape)._checked()
 
 
+@_of_keywords
 def rectangle(width=1, height=1) -> System:
     """[0, width] × [0, height] (lengths), with walls bottom, right, top, left."""
     return _shape("rectangle", width=width, height=height)
 
 
+@_of_keywords
 def polygon(points) -> System:
     """A polygon through the points, (corners, 2), lengths; walls side_1, side_2, …"""
     return _shape("polygon", points=points)
 
 
+@_of_keywords
 def triangle(points) -> System:
     """A triangle with these three points (lengths); walls side_1, side_2, side_3."""
     return _shape("triangle", points=points)
 
 
+@_of_keywords
 def regular(sides, radius=1, angle=None) -> System:
     """A regular polygon about the origin; `radius` (length) is that of its corners, `angle` (radians)
     the direction of the first."""
     return _shape("regular", sides=sides, radius=radius, angle=angle)
 
 
+@_of_keywords
 def circle(radius=1) -> System:
     """A disc of this radius (length) about the origin, with the wall circle."""
     return _shape("circle", radius=radius)
 
 
+@_of_keywords
 def ellipse(a, b) -> System:
     """An ellipse about the origin with semi-axes a along x and b along y (lengths), with the wall
     ellipse."""
     return _shape("ellipse", a=a, b=b)
 
 
+@_of_keywords
 def annulus(outer, inner, offset=None) -> System:
     """Between two circles of these radii, the inner one shifted by `offset` along x (lengths); walls
     outer, inner."""
     return _shape("annulus", outer=outer, inner=inner, offset=offset)
 
 
+@_of_keywords
 def stadium(half_length=1, radius=1) -> System:
     """Bunimovich's stadium about the origin, straight walls of 2·half_length (lengths); walls
     bottom, right, top, left."""
     return _shape("stadium", half_length=half_length, radius=radius)
 
 
+@_of_keywords
 def mushroom(cap_radius, stem_width, stem_height) -> System:
     """Bunimovich's mushroom: cap above y = 0, stem below (lengths)."""
     return _shape("mushroom", cap_radius=cap_radius, stem_width=stem_width, stem_height=stem_height)
 
 
+@_of_keywords
 def lemon(radius, separation) -> System:
     """The lens between two circles of one radius whose centres are `separation` apart (lengths)."""
     return _shape("lemon", radius=radius, separation=separation)
 
 
+@_of_keywords
 def sinai(side=1, radius=0.25, torus=None) -> System:
-    """A disc at the centre of a square [0, side]² (lengths), with walls or (torus=True) periodic."""
+    """A disc at the centre of a square [0, side]² (lengths), which is a torus; torus=False: with walls."""
     return _shape("sinai", side=side, radius=radius, torus=torus)
 
 
+@_of_keywords
 def lorentz(lattice="triangular", spacing=2.2, radius=1) -> System:
     """The periodic Lorentz gas: one disc a cell of a triangular or square lattice; `spacing` is that
     of the centres (lengths)."""
     return _shape("lorentz", lattice=lattice, spacing=spacing, radius=radius)
 
 
+@_of_keywords
 def discs(centers, radius=None, radii=None) -> System:
     """Hard discs in the open plane about these centers, (discs, 2), lengths; walls disc_1, disc_2,
     … Starts are on the first of them by the

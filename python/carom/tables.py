@@ -3,7 +3,7 @@
 import numpy
 
 from . import _carom
-from .axes import COLOURS, new_axes, plain, title
+from .axes import COLOURS, legend, new_axes, picture, plain, style_of, title
 
 WALL = "#222222"
 _MATTER = "#e6e4df"  # obstacles
@@ -11,17 +11,22 @@ _SPACE = "#fafaf7"  # where particles move
 _BESIDE = 7  # points between a wall and its name
 
 
+@picture
 def table(
-    system, ax=None, names=True, cells=((0, 0),), levels=True, directions=True, field=True, starts=None
+    system, ax=None, names=True, cells=((0, 0),), levels=True, directions=True, field=True, starts=None, **style
 ):
     """Walls with the direction of their arc length, holes (dashed, with their names), the sense of
     the field, level lines of the potentials; of a lattice these cells. starts: this many
-    trajectories' starts as dots with their directions; None: those that the system lists."""
+    trajectories' starts as dots with their directions; None: those that the system lists. style: that of
+    the walls, as color and label."""
     made = ax is None
     ax = new_axes(ax)
     loaded = system._loaded("table")
     walls = _carom.walls(loaded)
-    _walls(loaded, walls, ax, list(cells))
+    style = style_of(style, color=WALL, linewidth=1.2)
+    _walls(loaded, walls, ax, list(cells), style)
+    if "label" in style:
+        legend(ax)
     if levels:
         draw_levels(loaded, ax)
     if starts is None:
@@ -36,7 +41,7 @@ def table(
     if directions and len(walls) <= 12:
         for _, pieces, _ in walls:
             if pieces:
-                arrow(ax, max(pieces, key=len), WALL)
+                arrow(ax, max(pieces, key=len), style["color"])
     if field:
         _field(loaded, ax)
     if names:
@@ -49,7 +54,7 @@ def table(
     return ax
 
 
-def _walls(loaded, walls, ax, cells):
+def _walls(loaded, walls, ax, cells, style):
     """Walls and holes over what is inside. Of a lattice each cell, with what reaches into it from its neighbours."""
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path
@@ -80,7 +85,8 @@ def _walls(loaded, walls, ax, cells):
             for piece in pieces:
                 if shown and not _touch(piece + shift, reach):
                     continue
-                drawn += ax.plot(*(piece + shift).T, color=WALL, linewidth=1.2, zorder=3, solid_capstyle="round")
+                drawn += ax.plot(*(piece + shift).T, **({"zorder": 3, "solid_capstyle": "round"} | style))
+                style = {key: one for key, one in style.items() if key != "label"}
             for _, piece in holes:
                 hole = {"color": COLOURS[1], "linewidth": 1.4, "linestyle": (0, (2, 1.5))}
                 drawn += ax.plot(*(piece + shift).T, zorder=3, **hole)

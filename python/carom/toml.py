@@ -42,6 +42,12 @@ def value(thing, key="", levels=0):
         # A line each: the place of a number is found by counting along its line.
         rows = any(item.startswith("[") for item in items)
         return "[" + (",\n" if rows else ", ").join(items) + "]"
+    if callable(thing):
+        raise InputError(
+            f"'{key}' cannot be a Python function: forces are computed in C++, with the same bits everywhere. Type a"
+            ' formula: potential={"kind": "expression", "expression": "k*x^2/2", "parameters": {"k": 2}}',
+            ("", 0, 0, key), "a formula as text",
+        )  # fmt: skip
     raise InputError(
         f"'{key}' cannot be {thing!r}", ("", 0, 0, key), "numbers, text, lists or dictionaries"
     )

@@ -1,8 +1,9 @@
 """Pictures of transport: mean square displacements, correlations of the velocity, free paths, returns."""
 
-from .axes import COLOURS, legend, new_axes, style_of, subplots, title, title_above, with_error
+from .axes import COLOURS, legend, new_axes, picture, style_of, subplots, title, title_above, with_error
 
 
+@picture
 def diffusion(result, ax=None, **style):
     """The mean square displacement with its errors, and 4Dt where there is a D without a doubt; style: that
     of the points, as color and label."""
@@ -29,6 +30,7 @@ def diffusion(result, ax=None, **style):
     return ax
 
 
+@picture
 def correlation(result, ax=None, **style):
     """The velocity autocorrelation against t, and D(t) of Green and Kubo beside it."""
     if ax is not None:
@@ -60,16 +62,20 @@ def _against_time(ax, result, points, label, style):
     return ax
 
 
-def free_paths(result, ax=None):
-    """The share of flights that are at least so long: between hits, and from the start."""
+@picture
+def free_paths(result, ax=None, **style):
+    """The share of flights that are at least so long: between hits, and from the start, hollow. style: that of
+    the points; a label stands before those of the two."""
     ax = new_axes(ax)
+    style = style_of(style, markersize=3, linewidth=1)
+    before = f"{style.pop('label')}, " if "label" in style else ""
     paths = result.free_paths
     kinds = (("between hits", paths.between_hits), ("from the start", paths.at_start))
-    for colour, (label, flights) in zip(COLOURS, kinds):
+    for colour, (label, flights), hollow in zip(COLOURS, kinds, ({}, {"markerfacecolor": "white"})):
         seen = flights.bins[(flights.bins["from"] > 0) & (flights.bins["longer"] > 0)]
         ax.errorbar(
-            seen["from"], seen["longer"], yerr=seen["longer_stderr"], fmt="o", markersize=3, linewidth=1,
-            color=colour, label=label,
+            seen["from"], seen["longer"], yerr=seen["longer_stderr"], fmt="o",
+            **({"color": colour, "label": before + label} | hollow | style),
         )
     ax.set_xscale("log")
     ax.set_yscale("log")
@@ -92,6 +98,7 @@ def free_paths(result, ax=None):
     return ax
 
 
+@picture
 def returns(result, ax=None, **style):
     """The share of excursions from the wall that last t or longer."""
     ax = new_axes(ax)

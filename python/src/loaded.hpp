@@ -31,6 +31,7 @@ void add_orbits(pybind11::module_&);
 void add_certified(pybind11::module_&);
 void add_comparisons(pybind11::module_&);
 void add_rare(pybind11::module_&);
+void add_streams(pybind11::module_&);
 void add_sweeps(pybind11::module_&);
 void add_validation(pybind11::module_&);
 void add_equilibria(pybind11::module_&);

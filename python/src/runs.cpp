@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -30,16 +31,40 @@ namespace {
 using cli::RunOutcome;
 using cli::SectionOutcome;
 
+// Hits on their way to a function of Python's, which is called by another thread than that of the
+// run.
+class HitQueue {
+ public:
+  void add(const std::vector<HitRow>& rows) {
+    const std::lock_guard lock(mutex_);
+    rows_.insert(rows_.end(), rows.begin(), rows.end());
+  }
+  std::vector<HitRow> take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(rows_, {});
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<HitRow> rows_;
+};
+
 // What a run tells, kept: rows for arrays, events for an archive.
 class Recording : public Observer {
  public:
-  Recording(const System& system, Course& course)
-      : system_(system), frames_(frames_of(*system.table)), energies_(system), course_(course) {
+  // `queue`: gets the hits, too; null: nobody asks for them.
+  Recording(const System& system, Course& course, HitQueue* queue)
+      : system_(system),
+        frames_(frames_of(*system.table)),
+        energies_(system),
+        course_(course),
+        queue_(queue) {
     energies_.listen([&course] { return course.stop.load(std::memory_order_relaxed); });
   }
 
   void hit(const HitEvent& event) override {
     hits->push_back(hit_row(event, *system_.table, frames_));
+    if (queue_ != nullptr && hits->size() - queued_ >= 512) queue();
     course_.done.store(hits->size(), std::memory_order_relaxed);
     const double by_hits =
         system_.run.collisions == 0
@@ -65,6 +90,13 @@ class Recording : public Observer {
     return complete;
   }
 
+  // The hits since the last call are for the queue.
+  void queue() {
+    if (queue_ == nullptr) return;
+    queue_->add({hits->begin() + static_cast<std::ptrdiff_t>(queued_), hits->end()});
+    queued_ = hits->size();
+  }
+
   std::shared_ptr<std::vector<HitRow>> hits = std::make_shared<std::vector<HitRow>>();
   std::shared_ptr<std::vector<SampleRow>> samples = std::make_shared<std::vector<SampleRow>>();
   std::shared_ptr<std::vector<ContactRow>> contacts = std::make_shared<std::vector<ContactRow>>();
@@ -74,11 +106,13 @@ class Recording : public Observer {
   const System& system_;
   std::vector<geometry::CurveFrame> frames_;
   EnergyRows energies_;
-  std::size_t samples_before_ = 0;
+  std::size_t samples_before_ = 0, queued_ = 0;
   Course& course_;
+  HitQueue* const queue_;
 };
 
-py::tuple run(const LoadedPointer& loaded, bool state_error, const py::object& progress) {
+py::tuple run(const LoadedPointer& loaded, bool state_error, const py::object& on_hit,
+              const py::object& progress) {
   const System& system = loaded->system();
   const cli::Options& options = loaded->options;
   const auto made = std::make_shared<RunOutcome>(loaded);
@@ -86,16 +120,34 @@ py::tuple run(const LoadedPointer& loaded, bool state_error, const py::object& p
   if (!options.trajectory.empty())
     outcome.trajectory = cli::whole_number(options.trajectory, "--trajectory", 0);
   Course course;
-  Recording recording(system, course);
+  HitQueue queue;
+  const bool asked = !on_hit.is_none();
+  const auto hand_over = [&] {
+    std::vector<HitRow> rows = queue.take();
+    if (!rows.empty()) on_hit(array_of(std::move(rows)));
+  };
+  py::object told = progress;
+  if (asked)
+    told = py::cpp_function([&](double share, std::uint64_t done) {
+      hand_over();
+      if (!progress.is_none()) progress(share, done);
+    });
+  Recording recording(system, course, asked ? &queue : nullptr);
   SingleRunOptions how;
   how.trajectory = outcome.trajectory;
   how.estimate_state_error = state_error;
   how.interrupted = [&] { return course.stop.load(std::memory_order_relaxed); };
-  const std::exception_ptr interruption = run_in_background(course, progress, [&] {
+  std::exception_ptr interruption = run_in_background(course, told, [&] {
     if (estimates_trust(system)) how.written = written_system(loaded->loaded);
     how.started = [&](const World& world) { outcome.starts = start_rows(world, *system.table); };
     outcome.result = run_single(system, recording, how);
+    recording.queue();
   });
+  if (!interruption) try {
+      hand_over();
+    } catch (py::error_already_set&) {
+      interruption = std::current_exception();
+    }
   if (interruption && outcome.result.particles.empty()) std::rethrow_exception(interruption);
   outcome.status = cli::run_status(outcome.result);
   outcome.hits = {recording.hits};
@@ -147,7 +199,8 @@ void add_runs(py::module_& module) {
            [](const RunOutcome& self) { return array_of<EnergyRow>(self.energies.get()); })
       .def("starts",
            [](const RunOutcome& self) { return array_of(std::vector<SampleRow>(self.starts)); });
-  module.def("run", &run, py::arg("system"), py::arg("state_error"), py::arg("progress"));
+  module.def("run", &run, py::arg("system"), py::arg("state_error"), py::arg("on_hit"),
+             py::arg("progress"));
   py::class_<SectionOutcome, Outcome, std::shared_ptr<SectionOutcome>>(module, "SectionOutcome")
       .def("points",
            [](const SectionOutcome& self) { return array_of<SectionPoint>(self.points); });

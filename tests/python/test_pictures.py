@@ -96,7 +96,8 @@ def test_rates_are_those_of_the_result():
 
 def test_energies_are_drawn_where_there_are_some():
     run = carom.run("wigner", t_max=1, sample=0.1)
-    ax = carom.plot.energy(run)
+    ax, change = carom.plot.energy(run)
+    assert change.get_lines()[0].get_ydata()[0] == 0
     lines = {line.get_label(): line.get_ydata() for line in ax.get_lines()}
     assert numpy.array_equal(lines["total"], run.energies["total"])
     with pytest.raises(ValueError):
