@@ -24,13 +24,13 @@ Axis axis_of(const Curve& curve) {
 }  // namespace
 
 const char* kind_name(const Curve& curve) {
-  static constexpr const char* names[] = {"segment", "circular arc", "circle", "elliptic arc",
-                                          "ellipse"};
+  static constexpr const char* names[] = {"segment",      "circular arc", "circle",
+                                          "elliptic arc", "ellipse",      "bezier"};
   return names[curve.index()];
 }
 
 std::optional<Arc> arc_of(const Curve& curve) {
-  if (std::holds_alternative<Segment>(curve)) return {};
+  if (std::holds_alternative<Segment>(curve) || std::holds_alternative<Bezier>(curve)) return {};
   const CurveFrame frame = frame_of(curve);
   Axis axis = axis_of(curve);
   if (axis.ratio == 1.0) axis = {};  // a circle

@@ -58,7 +58,7 @@ bool within(const Exact& from, const Exact& to, const Exact& d) {
   return first > 0;
 }
 
-// Projection onto x -> cross(p, x); none for arcs of ellipses.
+// Projection onto x -> cross(p, x); none for arcs of ellipses and Bézier curves.
 std::optional<Interval> projection(const Curve& curve, const Exact& p) {
   if (const auto* segment = std::get_if<Segment>(&curve))
     return between(cross(p, exact(segment->from)), cross(p, exact(segment->to)));
@@ -195,7 +195,9 @@ void add_gaps(std::vector<Interval>& intervals, const Dyadic& period, const Cell
 
 Corridors free_corridors(const Lattice& lattice, const std::vector<Curve>& walls) {
   Corridors result;
-  const auto unknown = [](const Curve& c) { return std::holds_alternative<EllipticArc>(c); };
+  const auto unknown = [](const Curve& c) {
+    return std::holds_alternative<EllipticArc>(c) || std::holds_alternative<Bezier>(c);
+  };
   result.decided = !walls.empty() && std::none_of(walls.begin(), walls.end(), unknown);
   if (!result.decided) return result;
   const Exact first = exact(lattice.first), second = exact(lattice.second);

@@ -88,13 +88,19 @@ Vector end_point(const Curve& curve) {
                     curve);
 }
 
+namespace {
+bool ends_at_one(const Curve& curve) {
+  return std::holds_alternative<Segment>(curve) || std::holds_alternative<Bezier>(curve);
+}
+}  // namespace
+
 double end_parameter(const Curve& curve) {
   if (is_closed(curve)) return 4.0;
-  return std::holds_alternative<Segment>(curve) ? 1.0 : frame_of(curve).end;
+  return ends_at_one(curve) ? 1.0 : frame_of(curve).end;
 }
 double last_parameter(const Curve& curve) {
   if (is_closed(curve)) return std::nextafter(4.0, 0.0);
-  return std::holds_alternative<Segment>(curve) ? std::nextafter(1.0, 0.0) : frame_of(curve).last;
+  return ends_at_one(curve) ? std::nextafter(1.0, 0.0) : frame_of(curve).last;
 }
 
 Vector tangent_at(const CurveFrame& f, double u) {
@@ -105,6 +111,7 @@ Vector tangent_at(const CurveFrame& f, double u) {
 Vector normal_at(const CurveFrame& f, double u) { return left(tangent_at(f, u)); }
 double curvature_at(const CurveFrame& f, double u) {
   if (f.kind == Kind::segment) return 0.0;
+  if (f.bezier) return f.bezier->curvature(u);
   if (f.circular) return f.turn / f.major;
   // x' x x''/|x'|^3 by the eccentric angle, where x' x x'' = a x b is the product of the semi-axes.
   const Vector t = conic_direction(f, u);
@@ -131,6 +138,15 @@ Box bounding_box(const Curve& curve) {
   Box box{{std::fmin(from.x, to.x), std::fmin(from.y, to.y)},
           {std::fmax(from.x, to.x), std::fmax(from.y, to.y)}};
   if (std::holds_alternative<Segment>(curve)) return box;
+  if (const auto* bezier = std::get_if<Bezier>(&curve)) {
+    // The curve lies in the convex hull of its control points.
+    for (int i = 1; i < bezier->degree; ++i) {
+      const Vector p = bezier->control(i);
+      box = {{std::fmin(box.low.x, p.x), std::fmin(box.low.y, p.y)},
+             {std::fmax(box.high.x, p.x), std::fmax(box.high.y, p.y)}};
+    }
+    return box;
+  }
   const CurveFrame f = frame_of(curve);
   widen(box.low.x, box.high.x, f.origin.x, f.start, f.a.x, f.b.x, f.end);
   widen(box.low.y, box.high.y, f.origin.y, f.start, f.a.y, f.b.y, f.end);
@@ -139,6 +155,7 @@ Box bounding_box(const Curve& curve) {
 
 double area_beyond_chord(const CurveFrame& f) {
   if (f.kind == Kind::segment) return 0.0;
+  if (f.bezier) return f.bezier->area_beyond_chord();
   const double product = f.turn * (f.major * f.minor);
   return f.kind == Kind::closed ? product * std::numbers::pi
                                 : 0.5 * product * angle_minus_sine(f.end);

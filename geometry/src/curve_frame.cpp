@@ -119,6 +119,18 @@ struct Frames {
     f.last = std::nextafter(4.0, 0.0);
     return f;
   }
+  CurveFrame operator()(const Bezier& c) const {
+    CurveFrame f;
+    f.kind = Kind::bezier;
+    f.bezier = std::make_shared<const BezierForm>(c);
+    f.origin = c.from;
+    f.a = c.to - c.from;
+    f.major = f.minor = f.bezier->least_speed;
+    f.end = 1.0;
+    f.last = std::nextafter(1.0, 0.0);
+    f.middle = f.bezier->point(0.5);
+    return f;
+  }
   CurveFrame operator()(const CircularArc& c) const { return conic_frame(c); }
   CurveFrame operator()(const EllipticArc& c) const { return conic_frame(c); }
   CurveFrame operator()(const Ellipse& c) const { return conic_frame(c); }

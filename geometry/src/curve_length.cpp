@@ -7,6 +7,7 @@
 #include "carom/base/elementary.hpp"
 #include "carom/geometry/arc_lengths.hpp"
 #include "carom/geometry/curve_frame.hpp"
+#include "gauss_legendre.hpp"
 
 namespace carom::geometry {
 
@@ -93,6 +94,7 @@ Place place(const CurveFrame& f, double c, double s) {
 /// Length per unit of u.
 double speed(const CurveFrame& f, double u) {
   const Vector t = direction_at(f, u);
+  if (f.bezier) return std::sqrt(dot(t, t));
   const double w = u - detail::quarter_number(u);
   return std::sqrt(dot(t, t)) * (2.0 / (1.0 + w * w));
 }
@@ -103,15 +105,7 @@ double speed(const CurveFrame& f, double u) {
 /// that is taken: the zero is 31 half ways from the middle at least, and the rule leaves about
 /// 62^-16, less than 2^-53.
 double short_length(const CurveFrame& f, double u) {
-  constexpr double node[4] = {0.18343464249564980494, 0.52553240991632898582,
-                              0.79666647741362673959, 0.96028985649753623168};
-  constexpr double weight[4] = {0.36268378337836198297, 0.31370664587788728734,
-                                0.22238103445337447054, 0.10122853629037625915};
-  const double half = 0.5 * u;
-  double sum = 0.0;
-  for (int i = 3; i >= 0; --i)
-    sum += weight[i] * (speed(f, half - half * node[i]) + speed(f, half + half * node[i]));
-  return half * sum;
+  return gauss_legendre(0.0, u, [&](double at) { return speed(f, at); });
 }
 
 double elliptic_length(const CurveFrame& f, double u) {
@@ -145,12 +139,16 @@ double circular_parameter(double angle) {
   return n + half.sin / half.cos;
 }
 
-double elliptic_parameter(const CurveFrame& f, double s) {
+/// Of curves that are no segment and no circle.
+double curved_length(const CurveFrame& f, double u) {
+  return f.bezier ? f.bezier->arc_length(u) : elliptic_length(f, u);
+}
+double curved_parameter(const CurveFrame& f, double s) {
   // Newton, kept inside a shrinking bracket: the length is monotone in u.
   double low = 0.0, high = f.end;
-  double u = f.end * (s / elliptic_length(f, f.end));
+  double u = f.end * (s / curved_length(f, f.end));
   for (int i = 0; i < 100; ++i) {
-    const double excess = elliptic_length(f, u) - s;
+    const double excess = curved_length(f, u) - s;
     if (excess > 0.0) high = u;
     if (excess < 0.0) low = u;
     double next = u - excess / speed(f, u);
@@ -169,7 +167,7 @@ double length_by(const CurveFrame& f, double u, const Arctangent& arctangent) {
   if (u <= 0.0) return 0.0;
   if (u > f.end) u = f.end;
   if (f.kind == Kind::segment) return u * f.major;
-  if (!f.circular) return elliptic_length(f, u);
+  if (!f.circular) return curved_length(f, u);
   if (u >= 4.0) return f.major * (2.0 * std::numbers::pi);
   const double n = detail::quarter_number(u);
   return f.major * (n * right_angle + 2.0 * arctangent(u - n));
@@ -207,7 +205,7 @@ double parameter_at_length(const CurveFrame& f, double s) {
   if (s >= length(f)) return f.end;
   const double u = f.kind == Kind::segment ? s / f.major
                    : f.circular            ? circular_parameter(s / f.major)
-                                           : elliptic_parameter(f, s);
+                                           : curved_parameter(f, s);
   return u < f.end ? u : f.end;
 }
 

@@ -71,6 +71,12 @@ Curve reversed(const Curve& curve) {
     Curve operator()(const Ellipse& e) const {
       return Ellipse{e.centre, e.axis, e.ratio, !e.counterclockwise};
     }
+    Curve operator()(const Bezier& b) const {
+      Bezier r{b.to, b.from, {}, b.degree};
+      for (int i = 1; i < b.degree; ++i)
+        r.inner[static_cast<std::size_t>(i - 1)] = b.control(b.degree - i);
+      return r;
+    }
   } const opposite;
   return std::visit(opposite, curve);
 }

@@ -13,6 +13,7 @@ class Dyadic {
   Dyadic(int value) : mantissa_(value) {}  // NOLINT: integers are dyadic
   /// Exactly the double, which must be finite.
   Dyadic(double value);  // NOLINT: doubles are dyadic
+  explicit Dyadic(mpz_class whole) : mantissa_(std::move(whole)) {}
 
   friend Dyadic operator+(const Dyadic& a, const Dyadic& b);
   friend Dyadic operator-(const Dyadic& a, const Dyadic& b);

@@ -16,19 +16,19 @@ ExactBoundary::ExactBoundary(ExactBoundary&&) noexcept = default;
 
 Sign ExactBoundary::inward(int piece, double u, Vector v) const {
   const ExactCurve& c = data_->curve(piece);
-  return sign_of(cross(c.tangent(c.point(u)), exact(v)));
+  return sign_of(cross(c.direction_at(u), exact(v)));
 }
 
 Sign ExactBoundary::inward_at_end(int piece, Vector v) const {
   const ExactCurve& c = data_->curve(piece);
-  return sign_of(cross(c.tangent(c.end_point()), exact(v)));
+  return sign_of(cross(c.direction_at(-1.0), exact(v)));
 }
 
 ExactBoundary::Corner ExactBoundary::corner(int previous, int next) const {
   const ExactCurve& before = data_->curve(previous);
   const ExactCurve& after = data_->curve(next);
-  const DyadicVector in = before.tangent(before.end_point());
-  const DyadicVector out = after.tangent(after.point(0.0));
+  const DyadicVector in = before.direction_at(-1.0);
+  const DyadicVector out = after.direction_at(0.0);
   const Dyadic turn = cross(in, out), along = dot(in, out);
   if (turn.sign() == 0) return {0, along.sign() > 0 ? 1 : 0};
   if (turn.sign() > 0 && along.sign() == 0) return {1, 2};

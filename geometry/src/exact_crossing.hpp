@@ -14,6 +14,7 @@ struct Crossing {
   Dyadic p, q, r{1}, d;
   Quadratic<Dyadic> quadratic;
   std::optional<AlgebraicRoot> root;
+  std::optional<AlgebraicRoot> place;  ///< u on a Bézier curve
 
   AlgebraicRoot algebraic() const;
 };

@@ -55,6 +55,21 @@ struct Builder {
     c.metric = metric_of(o.axis, o.ratio);
     full(o.centre, o.axis, o.counterclockwise);
   }
+  void operator()(const Bezier& b) const {
+    c.segment = false;
+    c.from = exact(b.from);
+    c.to = exact(b.to);
+    // Differences of the control points, again and again, times binomials.
+    std::vector<DyadicVector> d;
+    for (int i = 0; i <= b.degree; ++i) d.push_back(exact(b.control(i)));
+    int binomial = 1;
+    for (int k = 0; k <= b.degree; ++k) {
+      c.power.push_back(Dyadic(binomial) * d[0]);
+      binomial = binomial * (b.degree - k) / (k + 1);
+      for (std::size_t i = 0; i + 1 < d.size(); ++i) d[i] = d[i + 1] - d[i];
+      d.pop_back();
+    }
+  }
   void full(Vector centre, Vector start, bool counterclockwise) const {
     c.segment = false;
     c.closed = true;
@@ -80,6 +95,12 @@ ExactPoint ExactCurve::point(double u) const {
     const Dyadic t(u);
     return {from.x + t * direction.x, from.y + t * direction.y, one};
   }
+  if (bezier()) {
+    const Dyadic t(u);
+    DyadicVector x = power.back();
+    for (std::size_t k = power.size() - 1; k-- > 0;) x = power[k] + t * x;
+    return {x.x, x.y, one};
+  }
   const double quarters = std::floor(u);
   const Dyadic w(u - quarters);
   DyadicVector a = metric.scale * start;
@@ -94,6 +115,14 @@ ExactPoint ExactCurve::point(double u) const {
   const Dyadic weight = (one + w2) * metric.scale;
   const DyadicVector e = (one - w2) * a + (Dyadic(2) * w) * b;
   return {weight * centre.x + e.x, weight * centre.y + e.y, weight};
+}
+
+DyadicVector ExactCurve::direction_at(double u) const {
+  if (!bezier()) return tangent(u < 0.0 ? end_point() : point(u));
+  const Dyadic t(u < 0.0 ? 1.0 : u);
+  DyadicVector x;
+  for (std::size_t k = power.size(); k-- > 1;) x = Dyadic(static_cast<int>(k)) * power[k] + t * x;
+  return x;
 }
 
 DyadicVector ExactCurve::tangent(const ExactPoint& at) const {

@@ -1,6 +1,8 @@
 // Curves in exact arithmetic.
 #pragma once
 
+#include <vector>
+
 #include "carom/geometry/curve.hpp"
 #include "dyadic.hpp"
 
@@ -36,12 +38,16 @@ struct ExactCurve {
   DyadicVector centre, start, end;  ///< conics: from and to seen from the centre
   Dyadic r2;                        ///< M(start, start)
   Metric metric;
+  std::vector<DyadicVector> power;  ///< Bézier curves: x(u) = sum of power[k] u^k; else empty
 
   explicit ExactCurve(const Curve& curve);
   ExactPoint point(double u) const;
   ExactPoint end_point() const { return {to.x, to.y, Dyadic(1)}; }
-  /// A tangent vector (any length) at a homogeneous point of the curve, in the direction of travel.
+  bool bezier() const { return !power.empty(); }
+  /// A tangent vector (any length) in the direction of travel: at a homogeneous point of a line or
+  /// conic, at a parameter (u < 0: at the end) of any curve.
   DyadicVector tangent(const ExactPoint& at) const;
+  DyadicVector direction_at(double u) const;
 };
 
 }  // namespace carom::geometry

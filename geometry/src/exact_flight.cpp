@@ -3,123 +3,14 @@
 #include <optional>
 #include <utility>
 
-#include "algebraic_root.hpp"
 #include "carom/base/error.hpp"
-#include "carom/geometry/formulas.hpp"
-#include "exact_boundary.hpp"
-#include "exact_crossing.hpp"
+#include "exact_flight_data.hpp"
 
 namespace carom::geometry {
 
-namespace {
-
-const Dyadic& one_half() {
-  static const Dyadic half(0.5);
-  return half;
-}
-
-}  // namespace
-
-struct ExactFlight::Data {
-  const ExactBoundary::Data& boundary;
-  ExactPoint start;
-  DyadicVector v;
-  Dyadic omega;
-
-  /// The start seen from a cell: the pieces stay where they are and the flight is displaced.
-  struct View {
-    Dyadic x, y, w;
-  };
-  View view(int piece, Cell cell) const {
-    const Cell o = boundary.pieces[static_cast<std::size_t>(piece)].offset;
-    const Cell c{cell.first + o.first, cell.second + o.second};
-    if (c == Cell{}) return {start.x, start.y, start.w};
-    const DyadicVector t = boundary.translation(c);
-    return {start.x - start.w * t.x, start.y - start.w * t.y, start.w};
-  }
-  const ExactCurve& curve(int piece) const { return boundary.curve(piece); }
-
-  /// Point minus start, times the positive factor start.w point.w, and that factor.
-  static std::pair<DyadicVector, Dyadic> offset(const View& s, const ExactPoint& at) {
-    return {{at.x * s.w - s.x * at.w, at.y * s.w - s.y * at.w}, s.w * at.w};
-  }
-  int side(const View& s, const ExactPoint& at) const {
-    const auto [d, f] = offset(s, at);
-    return side_of_flight(f * v, d, omega).sign();
-  }
-  /// kappa of a point that lies on the flight.
-  Crossing through(const View& s, const ExactPoint& at) const {
-    const auto [d, f] = offset(s, at);
-    return rational_crossing(f * dot(d, v), dot(d, d));
-  }
-
-  /// F N w^2 (or w) > 0 on the domain's side, as a quadratic in kappa.
-  Quadratic<Dyadic> quadratic(const ExactCurve& c, const View& s) const {
-    const DyadicVector e{s.x - s.w * (c.segment ? c.from.x : c.centre.x),
-                         s.y - s.w * (c.segment ? c.from.y : c.centre.y)};
-    const DyadicVector wv = s.w * v;
-    if (c.segment) return line_quadratic(e, c.direction, wv, omega, one_half());
-    const Dyadic r2 = s.w * s.w * c.r2;
-    Quadratic<Dyadic> f;
-    if (c.metric.euclidean)
-      f = circle_quadratic(e, r2, wv, dot(wv, wv), omega, one_half());
-    else  // without field only
-      f = {c.metric(e, e) - r2, c.metric(e, wv), c.metric(wv, wv)};
-    return c.orientation > 0 ? -f : f;
-  }
-  Polynomial quartic(const ExactCurve& c, const View& s) const {
-    const DyadicVector e{s.x - s.w * c.centre.x, s.y - s.w * c.centre.y};
-    const DyadicVector jv = right(v);
-    const Dyadic h = c.metric(e, e) - s.w * s.w * c.r2;
-    const Dyadic n = one_half() * omega * one_half() * omega;
-    const Dyadic ev = s.w * c.metric(e, v), ew = omega * s.w * c.metric(e, jv);
-    const Dyadic w2 = s.w * s.w, two(2);
-    Polynomial f{n * (n * h + ew + w2 * c.metric(jv, jv)),
-                 two * n * ev + omega * w2 * c.metric(v, jv),
-                 two * n * h + ew + w2 * c.metric(v, v), two * ev, h};
-    if (c.orientation > 0)
-      for (Dyadic& q : f) q = -q;
-    return f;
-  }
-  bool needs_quartic(const ExactCurve& c) const {
-    return !c.segment && !c.metric.euclidean && omega.sign() != 0;
-  }
-
-  /// Sign of cross(b - a, x - a) at a crossing, for two exact points of the plane.
-  int side_of_chord(const View& s, const ExactPoint& a, const ExactPoint& b,
-                    const Crossing& k) const {
-    const DyadicVector chord{b.x * a.w - a.x * b.w, b.y * a.w - a.y * b.w};
-    const DyadicVector e{s.x * a.w - a.x * s.w, s.y * a.w - a.y * s.w};  // (P - a) s.w a.w
-    return sign_at_crossing(line_quadratic(e, chord, s.w * a.w * v, omega, one_half()), k);
-  }
-  /// Is the crossing, a point of the conic, on its part from a to b?
-  bool on_part(const ExactCurve& c, const View& s, const ExactPoint& a, const ExactPoint& b,
-               const Crossing& k) const {
-    return side_of_chord(s, a, b, k) * c.orientation < 0;
-  }
-
-  std::vector<Crossing> exits(int piece, Cell cell, bool starts_here, bool ends_here,
-                              bool start_at_joint, std::vector<int>* zero_joints) const;
-  std::vector<Crossing> touches(int piece, Cell cell) const;
-  bool segment_crossed_twice(const ExactCurve& c, const View& s, int side,
-                             const Quadratic<Dyadic>& f) const;
-  /// Is the foot of the Larmor circle's centre strictly between the ends of a segment?
-  bool foot_between_ends(const ExactCurve& c, const View& s) const;
-  /// On which side of a piece's carrier the flight is just before and after it meets it at k
-  /// (rational).
-  struct Around {
-    int before, after;
-    bool tangent;
-  };
-  Around around(int piece, Cell cell, const Crossing& k) const;
-  /// Does the flight, which passes through the start of a piece at k, come to it through the domain
-  /// and not merely touch?
-  bool hits_joint(int piece, Cell cell, const Crossing& k) const;
-};
-
 ExactFlight::ExactFlight(const ExactBoundary& boundary, int piece, double u, Vector point,
                          Vector velocity, double omega)
-    : data_(new Data{boundary.data(), {}, exact(velocity), Dyadic(omega)}) {
+    : data_(new Data{boundary.data(), {}, exact(velocity), Dyadic(omega), u}) {
   if (piece >= 0) {
     data_->start = data_->curve(piece).point(u);
     const DyadicVector t =
@@ -155,6 +46,11 @@ std::vector<Crossing> ExactFlight::Data::exits(int piece, Cell cell, bool starts
   const ExactCurve& c = curve(piece);
   const View s = view(piece, cell);
   std::vector<Crossing> found;
+  if (c.bezier()) {
+    const int from = side(s, {c.from.x, c.from.y, Dyadic(1)});
+    if (zero_joints && from == 0 && !(starts_here && start_at_joint)) zero_joints->push_back(piece);
+    return geometry::exits(at_curve(c, s, starts_here, ends_here));
+  }
   const bool on_it = starts_here || ends_here;
   if (needs_quartic(c)) {
     if (zero_joints && !c.closed && !(starts_here && start_at_joint) &&
@@ -205,9 +101,11 @@ std::vector<Crossing> ExactFlight::Data::exits(int piece, Cell cell, bool starts
 }
 
 /// Where the flight is tangent to a piece without crossing it.
-std::vector<Crossing> ExactFlight::Data::touches(int piece, Cell cell) const {
+std::vector<Crossing> ExactFlight::Data::touches(int piece, Cell cell, bool starts_here,
+                                                 bool ends_here) const {
   const ExactCurve& c = curve(piece);
   const View s = view(piece, cell);
+  if (c.bezier()) return geometry::touches(at_curve(c, s, starts_here, ends_here));
   const ExactPoint a{c.from.x, c.from.y, Dyadic(1)};
   std::vector<Crossing> found;
   if (needs_quartic(c)) {
@@ -228,8 +126,9 @@ std::vector<Crossing> ExactFlight::Data::touches(int piece, Cell cell) const {
   return found;
 }
 
-ExactFlight::Data::Around ExactFlight::Data::around(int piece, Cell cell, const Crossing& k) const {
+AroundEnd ExactFlight::Data::around(int piece, bool at_end, Cell cell, const Crossing& k) const {
   const ExactCurve& c = curve(piece);
+  if (c.bezier()) return around_end(c, at_end, v);
   const View s = view(piece, cell);
   Polynomial f;
   if (needs_quartic(c)) {
@@ -254,9 +153,9 @@ bool ExactFlight::Data::hits_joint(int piece, Cell cell, const Crossing& k) cons
   if (previous < 0) return true;
   const ExactCurve& before = curve(previous);
   const ExactCurve& after = curve(piece);
-  const DyadicVector in = before.tangent(before.end_point());
-  const DyadicVector out = after.tangent(after.point(0.0));
-  const Around first = around(previous, cell, k), second = around(piece, cell, k);
+  const DyadicVector in = before.direction_at(-1.0);
+  const DyadicVector out = after.direction_at(0.0);
+  const AroundEnd first = around(previous, true, cell, k), second = around(piece, false, cell, k);
   const int turn = cross(in, out).sign();
   if (turn > 0) return first.before > 0 && second.before > 0;
   if (turn < 0) return first.before > 0 || second.before > 0;
@@ -295,7 +194,8 @@ ExactFlight::First ExactFlight::first(const std::vector<int>& pieces, Cell cell,
       }
       const int order = best_crossing ? compare(exits[i], *best_crossing) : 1;
       if (order < 0) continue;
-      const First candidate{First::Kind::exit, piece, static_cast<int>(i), approximate(exits[i])};
+      const First candidate{First::Kind::exit, piece, static_cast<int>(i), approximate(exits[i]),
+                            exits[i].place ? approximate(*exits[i].place) : 0.0};
       if (order == 0) {
         // Walls before edges; two walls at one point that is no joint are a cusp.
         const bool best_edge = d.boundary.pieces[static_cast<std::size_t>(best.piece)].edge;
@@ -312,12 +212,13 @@ ExactFlight::First ExactFlight::first(const std::vector<int>& pieces, Cell cell,
   for (const int piece : pieces) {
     if (d.boundary.pieces[static_cast<std::size_t>(piece)].edge) continue;
     // A circle or line that is crossed at the start is nowhere touched.
-    if (piece == start && !d.needs_quartic(d.curve(piece))) continue;
-    for (Crossing& k : d.touches(piece, cell)) {
+    if (piece == start && !d.needs_quartic(d.curve(piece)) && !d.curve(piece).bezier()) continue;
+    for (Crossing& k :
+         d.touches(piece, cell, piece == start, at_joint && piece == start_previous)) {
       if (best_crossing && compare(k, *best_crossing) < 0) continue;
       for (const Crossing& other : touched) {
         if (compare(other, k) != 0) continue;
-        best = {First::Kind::cusp, piece, 0, approximate(k)};
+        best = {First::Kind::cusp, piece, 0, approximate(k), 0.0};
         best_crossing = k;
       }
       touched.push_back(std::move(k));
@@ -334,7 +235,7 @@ ExactFlight::First ExactFlight::first(const std::vector<int>& pieces, Cell cell,
     if (d.omega.sign() == 0 && k.p.sign() <= 0) continue;
     if (!d.hits_joint(piece, cell, k)) continue;
     if (best_crossing && compare(k, *best_crossing) < 0) continue;
-    best = {First::Kind::joint, piece, 0, 0.0};
+    best = {First::Kind::joint, piece, 0, 0.0, 0.0};
     best_crossing = k;
   }
   return best;
@@ -352,6 +253,13 @@ bool ExactFlight::exit_within(int piece, int root, Cell cell, double from, doubl
   const ExactCurve& c = d.curve(piece);
   const Data::View s = d.view(piece, cell);
   std::optional<Crossing> k;
+  if (c.bezier()) {
+    const AlgebraicRoot u = *d.exits(piece, cell, start, false, false, nullptr)
+                                 .at(static_cast<std::size_t>(root))
+                                 .place;
+    return compare(u, Dyadic(from).rational()) >= 0 &&
+           (to < 0 || compare(u, Dyadic(to).rational()) < 0);
+  }
   if (d.needs_quartic(c)) {
     const std::vector<Crossing> all = d.exits(piece, cell, start, false, false, nullptr);
     k = all.at(static_cast<std::size_t>(root));

@@ -80,8 +80,10 @@ bool ExactLoop::on_boundary(const ExactPoint& point) const {
   const Rounded at = rounded(point);
   const Box box{{at.at.x - at.error, at.at.y - at.error}, {at.at.x + at.error, at.at.y + at.error}};
   for (std::size_t i = 0; i < size(); ++i)
-    if (overlap(box, boxes_[i]) && pieces_[i].side(point) == 0 &&
-        pieces_[i].where(point) != Where::outside)
+    if (overlap(box, boxes_[i]) &&
+        (pieces_[i].curve().bezier()
+             ? passes_through(pieces_[i].stretches().front(), point)
+             : pieces_[i].side(point) == 0 && pieces_[i].where(point) != Where::outside))
       return true;
   return false;
 }
@@ -147,8 +149,10 @@ bool ExactLoop::inside(const ExactPoint& point) const {
 bool ExactLoop::counterclockwise() const {
   if (pieces_[0].curve().closed) return pieces_[0].curve().orientation > 0;
   // From a point within the first piece, to the left: an odd number of crossings leads outside.
-  const ExactPoint from = sample_point(pieces_[0].curve(), pieces_[0].end(), 1);
-  const DyadicVector tangent = pieces_[0].curve().tangent(from);
+  const ExactCurve& first = pieces_[0].curve();
+  const double at = sample_parameter(pieces_[0].end(), 1);
+  const ExactPoint from = first.point(at);
+  const DyadicVector tangent = first.direction_at(at);
   for (int i = 0; i < directions; ++i) {
     DyadicVector d = direction(i);
     const int side = cross(tangent, d).sign();
@@ -160,12 +164,16 @@ bool ExactLoop::counterclockwise() const {
   throw InternalError("no ray in general position");
 }
 
-ExactPoint sample_point(const ExactCurve& c, double end, int n) {
-  if (n == 0) return {c.from.x, c.from.y, Dyadic(1)};
-  // A parameter with few bits well within the curve: a power of two below its end, or parts of it.
+double sample_parameter(double end, int n) {
+  // With few bits, well within the curve: a power of two below its end, or parts of it.
   int exponent = 0;
   std::frexp(end, &exponent);
-  return c.point(std::ldexp(n % 2 != 0 ? 0.5 : 0.375, exponent - 1 - n / 2));
+  return std::ldexp(n % 2 != 0 ? 0.5 : 0.375, exponent - 1 - n / 2);
+}
+
+ExactPoint sample_point(const ExactCurve& c, double end, int n) {
+  if (n == 0) return {c.from.x, c.from.y, Dyadic(1)};
+  return c.point(sample_parameter(end, n));
 }
 
 }  // namespace carom::geometry

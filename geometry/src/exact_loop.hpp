@@ -38,6 +38,8 @@ class ExactLoop {
 /// Points of a curve that ends at the parameter `end`: its start for n = 0, others for n = 1, 2, …
 ExactPoint sample_point(const ExactCurve& curve, double end, int n);
 
+double sample_parameter(double end, int n);  ///< the same for n > 0, as a parameter
+
 /// Displaced by a rounded vector and enlarged by that rounding.
 Box moved(const Box& box, Vector by);
 inline bool overlap(const Box& a, const Box& b) {

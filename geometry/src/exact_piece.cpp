@@ -28,6 +28,14 @@ Polynomial times(const Polynomial& a, const Polynomial& b) {
 
 std::vector<Stretch> stretches_of(const ExactCurve& c, int count) {
   const Dyadic zero(0), one(1), two(2);
+  if (c.bezier()) {
+    Stretch s{{}, {}, {one}};
+    for (const DyadicVector& k : c.power) {
+      s.x.push_back(k.x);
+      s.y.push_back(k.y);
+    }
+    return {s};
+  }
   if (c.segment) return {{{c.from.x, c.direction.x}, {c.from.y, c.direction.y}, {one}}};
   std::vector<Stretch> quarters;
   DyadicVector a = c.metric.scale * c.start, b = c.metric.quarter(c.start);
@@ -77,13 +85,17 @@ bool vanishes(const Polynomial& p) {
   return std::all_of(p.begin(), p.end(), [](const Dyadic& c) { return c.sign() == 0; });
 }
 
-std::vector<RealRoot> roots_in_unit(const Polynomial& p) {
-  // Bernstein coefficients, times 12: that makes them whole multiples of p's.
-  const auto share = [](const Dyadic& c, int m, int n) { return Dyadic(12 * m / n) * c; };
-  const SignChanges changes = sign_changes(bernstein_form(p, p.size() - 1, share),
+bool keeps_sign_in_unit(const Polynomial& p) {
+  // Bernstein coefficients, times 60: that makes them whole multiples of p's.
+  const auto share = [](const Dyadic& c, int m, int n) { return Dyadic(60 * m / n) * c; };
+  const SignChanges changes = sign_changes(bernstein_form<Bezier::most>(p, p.size() - 1, share),
                                            [](const Dyadic& c) { return sign_of(c); });
+  return changes.certain && changes.most == 0;
+}
+
+std::vector<RealRoot> roots_in_unit(const Polynomial& p) {
   std::vector<RealRoot> result;
-  if (changes.certain && changes.most == 0) return result;
+  if (keeps_sign_in_unit(p)) return result;
   for (RealRoot& root : real_roots(p))
     if (compare(root.value, mpq_class(0)) >= 0 && compare(root.value, mpq_class(1)) <= 0)
       result.push_back(std::move(root));
@@ -104,8 +116,9 @@ ExactPiece::ExactPiece(const Curve& curve, const DyadicVector& shift) : curve_(c
   curve_.from = curve_.from + shift;
   curve_.to = curve_.to + shift;
   if (!curve_.segment) curve_.centre = curve_.centre + shift;
+  if (curve_.bezier()) curve_.power[0] = curve_.power[0] + shift;
   int count = 4;
-  if (!curve_.segment && !curve_.closed) {
+  if (!curve_.segment && !curve_.closed && !curve_.bezier()) {
     const DyadicVector turned = curve_.metric.quarter(curve_.start);
     const ExactEnd end = end_of(curve_, curve_.orientation > 0 ? turned : -turned);
     const bool full = sgn(end.w) == 0;  // ends with a full quarter
@@ -113,6 +126,28 @@ ExactPiece::ExactPiece(const Curve& curve, const DyadicVector& shift) : curve_(c
     last_ = full ? mpq_class(1) : end.w;
   }
   stretches_ = stretches_of(curve_, count);
+}
+
+std::vector<Stretch> ExactPiece::whole_stretches() const {
+  std::vector<Stretch> all = stretches_;
+  // w = w' last: coefficient k of degree d, times the denominator^d.
+  const Dyadic p(last_.get_num()), q(last_.get_den());
+  Polynomial* parts[] = {&all.back().x, &all.back().y, &all.back().weight};
+  std::size_t degree = 0;
+  for (const Polynomial* part : parts) degree = std::max(degree, part->size() - 1);
+  if (last_ == 1) return all;
+  for (Polynomial* part : parts)
+    for (std::size_t k = 0; k < part->size(); ++k)
+      for (std::size_t i = 0; i < degree; ++i) (*part)[k] = (*part)[k] * (i < k ? p : q);
+  return all;
+}
+
+bool passes_through(const Stretch& s, const ExactPoint& p) {
+  const DyadicVector x{Dyadic(1), Dyadic(0)}, y{Dyadic(0), Dyadic(1)};
+  const Polynomial other = form_along(s, y, p);
+  for (const RealRoot& root : roots_in_unit(form_along(s, x, p)))
+    if (sign_of_value(other, root.value) == 0) return true;
+  return false;
 }
 
 Polynomial ExactPiece::equation(const Stretch& s) const {

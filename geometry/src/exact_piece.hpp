@@ -29,6 +29,8 @@ class ExactPiece {
 
   const ExactCurve& curve() const { return curve_; }
   const std::vector<Stretch>& stretches() const { return stretches_; }
+  /// The same, of which the last one, too, ends at w = 1.
+  std::vector<Stretch> whole_stretches() const;
   /// Parameter of the end, rounded.
   double end() const { return static_cast<double>(stretches_.size() - 1) + last_.get_d(); }
 
@@ -53,8 +55,12 @@ class ExactPiece {
 /// Linear form a.(X - weight P) along a stretch.
 Polynomial form_along(const Stretch& s, const DyadicVector& a, const ExactPoint& p);
 bool vanishes(const Polynomial& p);
+/// Has p obviously no root in [0, 1]? Degree 5 at most.
+bool keeps_sign_in_unit(const Polynomial& p);
 /// The roots in [0, 1], ascending; quick where the polynomial obviously keeps its sign there.
 std::vector<RealRoot> roots_in_unit(const Polynomial& p);
+/// Does the stretch of a Bézier curve pass through a point?
+bool passes_through(const Stretch& s, const ExactPoint& p);
 /// Rounded place of a point of a stretch.
 Vector rounded_point(const Stretch& s, double w);
 

@@ -41,6 +41,10 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
     parameter_stretch = 1.42 * inverse_length;
     return;
   }
+  if (parametrisation.bezier) {
+    prepare_bezier();
+    return;
+  }
   kind = exact_curve.metric.euclidean ? CurveKind::circle : CurveKind::ellipse;
   landing = kind == CurveKind::circle ? LandingKind::circle : LandingKind::ellipse;
   centre = rounded(exact_curve.centre);
@@ -97,8 +101,21 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
   }
 }
 
+void PreparedCurve::prepare_bezier() {
+  kind = CurveKind::bezier;
+  landing = LandingKind::bezier;
+  const BezierForm& f = *parametrisation.bezier;
+  constexpr double u = unit_roundoff;
+  const double degree = static_cast<double>(f.degree);
+  point_error = u * (1.1 * extent + (2.0 * degree + 1.1) * f.reach);
+  // x' errs by (2 degree + 2) u speed in each coordinate, its product with a velocity by 2u.
+  normal_bound = (2.0 * degree + 4.1) * u * f.speed;
+  normal_error = 1.42 * normal_bound / f.least_speed;
+  parameter_stretch = 1.42 / f.least_speed;
+}
+
 void PreparedCurve::make_thin() {
-  if (kind == CurveKind::segment) return;
+  if (kind == CurveKind::segment || kind == CurveKind::bezier) return;
   landing = LandingKind::thin;
   const Vector a = parametrisation.a, b = parametrisation.b;
   const double size = std::fabs(a.x) + std::fabs(a.y) + std::fabs(b.x) + std::fabs(b.y);
@@ -114,6 +131,14 @@ void PreparedCurve::make_thin() {
 PreparedCurve::Frame PreparedCurve::frame_at(double u) const {
   const Vector normal = left(direction_at(parametrisation, u));
   return {point(u), normal, dot(normal, normal), 1.0};
+}
+
+/// On a Bézier curve the parameter was found by the flight, and everything is made of it.
+PreparedCurve::Arrival PreparedCurve::arrival_at(double u, Vector v) const {
+  Arrival a;
+  a.u = std::clamp(u, first_parameter, last());
+  reflect_by(frame_at(a.u), v, a);
+  return a;
 }
 
 /// Where the line through x along v enters the unit circle that the curve is mapped to, or leaves

@@ -4,6 +4,7 @@
 
 #include "carom/geometry/bernstein.hpp"
 #include "carom/geometry/first_root.hpp"
+#include "number_with_error.hpp"
 
 namespace carom::geometry {
 
@@ -11,26 +12,7 @@ namespace {
 
 constexpr double u = unit_roundoff;
 
-/// A number with a bound on its error.
-struct NumberWithError {
-  double value = 0.0, error = 0.0;
-  Sign sign() const { return sign_within(value, error); }
-
-  friend NumberWithError operator+(const NumberWithError& a, const NumberWithError& b) {
-    return {a.value + b.value, a.error + b.error};  // roundings are in the errors of the terms
-  }
-  friend NumberWithError mean_of(const NumberWithError& a, const NumberWithError& b) {
-    const double mean = 0.5 * (a.value + b.value);
-    return {mean, 0.5 * (a.error + b.error) + 1.1 * u * std::fabs(mean)};
-  }
-};
 using Polynomial = BernsteinPolynomial<NumberWithError>;
-
-/// The quotient m/n is rounded once, the product once, each partial sum of such terms once.
-NumberWithError share_of(const NumberWithError& c, int m, int n) {
-  const double ratio = static_cast<double>(m) / n, term = ratio * c.value;
-  return {term, ratio * 1.01 * c.error + 7.1 * u * std::fabs(term)};
-}
 
 /// De Casteljau.
 NumberWithError value_at(Polynomial p, double t) {

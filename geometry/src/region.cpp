@@ -10,6 +10,7 @@
 #include "carom/geometry/lattice_copies.hpp"
 #include "contact.hpp"
 #include "exact_loop.hpp"
+#include "hull_contact.hpp"
 #include "overlapping_boxes.hpp"
 #include "region_faults.hpp"
 #include "segments_apart.hpp"
@@ -135,13 +136,36 @@ class Check {
                     " " + verb + " near " + place_text(place));
   }
 
+  bool is_bezier(const Item& i) const {
+    return std::holds_alternative<Bezier>(loops_[i.loop][i.piece].curve);
+  }
+  /// Bézier curves may not even touch themselves or anything else.
+  void bezier_with_itself(const Item& i) {
+    if (const auto at =
+            meeting_with_itself(exact_loop(i.loop, 0).piece(i.piece), loops_[i.loop].size() == 1))
+      faults_.add(Kind::crossing, name(i), "", *at,
+                  "wall " + quoted(i) + " crosses itself near " + place_text(*at));
+  }
+  void beziers(const Item& a, const Item& b) {
+    const ExactLoop &first = exact_loop(a.loop, a.copy), &second = exact_loop(b.loop, b.copy);
+    SharedEnds shared;
+    if (a.loop == b.loop && a.copy == b.copy)
+      shared = {first.next(a.piece) == b.piece, second.next(b.piece) == a.piece};
+    if (const auto at = meeting(first.piece(a.piece), second.piece(b.piece), shared))
+      meet(a, b, shared.forth || shared.back ? "meet in a cusp, or again," : "cross or touch", *at);
+  }
+
   void meetings() {
+    for (const Item& i : items_)
+      if (i.copy == 0 && is_bezier(i)) bezier_with_itself(i);
     overlapping_boxes(boxes_, [&](std::size_t i, std::size_t j) {
       Item a = items_[i], b = items_[j];
       if (a.copy != 0 && b.copy != 0) return !faults_.full();
       if (std::tie(b.copy, b.loop, b.piece) < std::tie(a.copy, a.loop, a.piece)) std::swap(a, b);
       if (is_disc(a) && is_disc(b)) {
         discs(a, b);
+      } else if (is_bezier(a) || is_bezier(b)) {
+        beziers(a, b);
       } else if (b.copy != 0 ||
                  !segments_apart(loops_[a.loop][a.piece].curve, loops_[b.loop][b.piece].curve)) {
         pieces(a, b);

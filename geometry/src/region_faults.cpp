@@ -25,6 +25,11 @@ struct Finite {
   bool operator()(const Ellipse& e) const {
     return all(e.centre.x, e.centre.y, e.axis.x, e.axis.y, e.ratio);
   }
+  bool operator()(const Bezier& b) const {
+    for (int i = 0; i <= b.degree; ++i)
+      if (!all(b.control(i).x, b.control(i).y)) return false;
+    return true;
+  }
 };
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "events/step/force_regions.hpp"
 #include "events/step/groups.hpp"
 #include "events/step/integration.hpp"
+#include "table/bezier_wall.hpp"
 #include "table/flat_arcs.hpp"
 
 namespace carom {
@@ -35,10 +36,15 @@ const Table& without_misplaced(const Table& table) {
   return table;
 }
 
-/// Steps and contacts know mirrors alone.
-const Dynamics& without_scattering(const Table& table, const Dynamics& dynamics) {
-  if (dynamics.everywhere || has_discs(dynamics) || (dynamics.forces && !dynamics.forces->empty()))
-    refuse_scattering(table, "forces, steps or hard discs");
+/// Steps and contacts know mirrors alone, and segments and conics.
+const Dynamics& without_other_walls(const Table& table, const Dynamics& dynamics) {
+  if (!dynamics.everywhere && !has_discs(dynamics) &&
+      (!dynamics.forces || dynamics.forces->empty()))
+    return dynamics;
+  refuse_scattering(table, "forces, steps or hard discs");
+  if (table::bezier_wall(table) != nullptr)
+    throw InputError(Place{}, "forces beside Bézier curves are not there yet",
+                     "walls of segments, circles and ellipses, or no forces");
   return dynamics;
 }
 
@@ -57,7 +63,7 @@ class World::Implementation {
   Implementation(const Table& the_table, const Dynamics& how, DecisionOptions options)
       : table(without_misplaced(the_table)),
         scales(the_table),
-        dynamics(without_scattering(the_table, how)),
+        dynamics(without_other_walls(the_table, how)),
         own_walls(std::make_shared<const Table>(walls_of_flights(table, dynamics))),
         flights(PieceTable(walls(), options), inside(), regions, bodies) {
     if (has_discs(dynamics)) discs.emplace(table, dynamics, bodies, flights, watch, interrupt);

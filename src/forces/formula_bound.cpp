@@ -235,6 +235,12 @@ ForceBound bound_of(const TypedExpression& v, const Neighbourhood& n) {
   return bound;
 }
 
+double largest_near(const TypedExpression& f, double low, double high, double rho) {
+  Evaluation<1> evaluation(f.formula());
+  const double size = complex_box::size(evaluation.run({Box({low, high}, {-rho, rho})}).v);
+  return evaluation.kinked ? complex_box::unbounded : bounded(size);
+}
+
 ForceBound bound_of(const TypedExpression& w, double distance, double rho) {
   if (!(rho < distance)) return {complex_box::unbounded, 0.0};
   Evaluation<1> evaluation(w.formula());

@@ -49,9 +49,21 @@ void FreeTangent::begin(const State& start, const Particle& particle, double uni
   last = start;
 }
 
+namespace {
+/// transverse_kick with the inward normal |x'| n of a Bézier curve.
+double kick_of(const geometry::BezierForm& curve, const State& state, double square, double omega) {
+  const Vector g = left(curve.derivative(state.u));
+  const double bend = -curve.curvature(state.u) * std::sqrt(dot(g, g));
+  return 2.0 * (square * bend - omega * dot(right(g), state.velocity)) / dot(g, state.velocity);
+}
+}  // namespace
+
 void FreeTangent::hit(const TangentWalls& table, const State& state) {
-  const double kick = transverse_kick(table.walls[static_cast<std::size_t>(state.wall)],
-                                      state.position, state.velocity, square, omega);
+  const auto wall = static_cast<std::size_t>(state.wall);
+  const double kick =
+      !table.beziers.empty() && table.beziers[wall]
+          ? kick_of(*table.beziers[wall], state, square, omega)
+          : transverse_kick(table.walls[wall], state.position, state.velocity, square, omega);
   TransverseFlight<double> flight{};
   if (omega != 0.0) {
     Vector way = state.position - last.position;

@@ -3,10 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "carom/geometry/curve.hpp"
+#include "carom/geometry/curve_frame.hpp"
 #include "carom/geometry/lattice.hpp"
 #include "carom/motion/state.hpp"
 #include "carom/motion/transverse.hpp"
@@ -18,13 +19,23 @@ WallForm<double> wall_form(const geometry::Curve&);
 /// What a hit needs of a table.
 struct TangentWalls {
   std::vector<WallForm<double>> walls;
+  /// A wall: its Bézier curve, or null; empty where there is none.
+  std::vector<std::shared_ptr<const geometry::BezierForm>> beziers;
   std::optional<geometry::Lattice> lattice;
 };
 /// `walls`: things with a `curve`.
 template <class Walls>
 TangentWalls tangent_walls(const Walls& walls, const std::optional<geometry::Lattice>& lattice) {
   TangentWalls made;
-  for (const auto& wall : walls) made.walls.push_back(wall_form(wall.curve));
+  for (const auto& wall : walls) {
+    if (std::holds_alternative<geometry::Bezier>(wall.curve)) {
+      made.beziers.resize(walls.size());
+      made.beziers[made.walls.size()] = geometry::frame_of(wall.curve).bezier;
+      made.walls.emplace_back();
+      continue;
+    }
+    made.walls.push_back(wall_form(wall.curve));
+  }
   made.lattice = lattice;
   return made;
 }

@@ -31,7 +31,7 @@ WallPoint wall_point(const Boundary& boundary, int wall, double u) {
 double moved_along(const Boundary& boundary, int wall, double u, double distance, bool& left_wall) {
   const geometry::CurveFrame& frame = boundary.frames[static_cast<std::size_t>(wall)];
   Vector point = geometry::point_at(frame, u) + distance * geometry::tangent_at(frame, u);
-  if (frame.kind != geometry::CurveFrame::Kind::segment) {
+  if (frame.kind != geometry::CurveFrame::Kind::segment && !frame.bezier) {
     // Back to the conic along the ray from its centre, on which (X, Y) grows by the factor r.
     const Vector e = point - frame.origin;
     const double x = frame.start + dot(frame.along, e), y = dot(frame.across, e);

@@ -40,9 +40,9 @@ struct Grid {
   void mark(const CurveFrame& edge, double side) {
     const double step = side / 4;
     // |dr/du| of a conic is at most twice its major semi-axis.
-    const double speed = edge.kind == CurveFrame::Kind::segment
-                             ? std::sqrt(dot(edge.a, edge.a))
-                             : 2.0 * std::max(edge.major, edge.minor);
+    const double speed = edge.kind == CurveFrame::Kind::segment ? std::sqrt(dot(edge.a, edge.a))
+                         : edge.bezier                          ? 1.5 * edge.bezier->speed
+                                       : 2.0 * std::max(edge.major, edge.minor);
     const double steps = std::ceil(speed * edge.end / step) + 1.0;
     for (double i = 0.0; i <= steps; i += 1.0)
       mark(geometry::point_at(edge, std::min(edge.end, edge.end * (i / steps))), step);

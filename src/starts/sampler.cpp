@@ -195,7 +195,8 @@ void Sampler::add_source(int wall, double from, double to) {
   // the few ulps of rounding only shave the acceptance probability's top, where it is 1 anyway.
   const double bound = frame.kind == geometry::CurveFrame::Kind::segment
                            ? std::sqrt(dot(frame.a, frame.a))
-                           : 2.0 * std::max(frame.major, frame.minor);
+                       : frame.bezier ? 1.5 * frame.bezier->speed
+                                      : 2.0 * std::max(frame.major, frame.minor);
   const double before = sources_.empty() ? 0.0 : sources_.back().weight;
   sources_.push_back({wall, from, to, bound, before + bound * (to - from)});
 }
@@ -325,7 +326,8 @@ State Sampler::cosine_law(RandomStream& random, double speed) const {
       // Uniform in arc length: accept in proportion to |dr/du|.
       const double w = u - std::floor(u);
       const Vector tangent = geometry::direction_at(frame, u);
-      const double rate = 2.0 * std::sqrt(dot(tangent, tangent)) / (1.0 + w * w);
+      const double rate = frame.bezier ? std::sqrt(dot(tangent, tangent))
+                                       : 2.0 * std::sqrt(dot(tangent, tangent)) / (1.0 + w * w);
       if (random.uniform() * source->bound >= rate) continue;
     }
     const double sine = random.symmetric();

@@ -24,14 +24,25 @@ namespace {
 
 using Builder = shapes::Shape (*)(const TableSpec&);
 const std::pair<const char*, Builder> builders[] = {
-    {"rectangle", shapes::rectangle}, {"polygon", shapes::polygon},
-    {"triangle", shapes::triangle},   {"regular", shapes::regular},
-    {"circle", shapes::circle},       {"ellipse", shapes::ellipse},
-    {"annulus", shapes::annulus},     {"stadium", shapes::stadium},
-    {"mushroom", shapes::mushroom},   {"lemon", shapes::lemon},
-    {"sinai", shapes::sinai},         {"lorentz", shapes::lorentz},
-    {"discs", shapes::discs},         {"random-discs", shapes::random_discs},
-    {"path", shapes::path},           {"plane", shapes::plane},
+    {"rectangle", shapes::rectangle},
+    {"polygon", shapes::polygon},
+    {"triangle", shapes::triangle},
+    {"regular", shapes::regular},
+    {"circle", shapes::circle},
+    {"ellipse", shapes::ellipse},
+    {"annulus", shapes::annulus},
+    {"stadium", shapes::stadium},
+    {"mushroom", shapes::mushroom},
+    {"lemon", shapes::lemon},
+    {"sinai", shapes::sinai},
+    {"lorentz", shapes::lorentz},
+    {"discs", shapes::discs},
+    {"random-discs", shapes::random_discs},
+    {"path", shapes::path},
+    {"polar", shapes::polar_curve},
+    {"parametric", shapes::parametric_curve},
+    {"spline", shapes::spline_curve},
+    {"plane", shapes::plane},
 };
 
 Builder builder_of(const TableSpec& spec) {
@@ -129,6 +140,7 @@ Table build_table(const TableSpec& spec) {
   table.shape = spec.shape;
   const shapes::Shape shape = shapes::written_shape(spec);
   table.extent = shape.extent;
+  table.curve_distance = shape.curve_distance;
   for (const shapes::Chain& chain : shape.loops) add_loop(table, chain);
   if (shape.lattice) shapes::set_lattice(table, *shape.lattice, shapes::point(shape.cell_centre));
   if (spec.lattice) shapes::repeat(*spec.lattice, table);

@@ -55,7 +55,9 @@ std::string shown(double x) {
 }  // namespace shapes
 
 Misplaced misplaced(const Wall& wall, const FlightSizes& sizes) {
-  if (std::holds_alternative<geometry::Segment>(wall.curve)) return {};
+  if (std::holds_alternative<geometry::Segment>(wall.curve) ||
+      std::holds_alternative<geometry::Bezier>(wall.curve))
+    return {};
   const geometry::CurveFrame frame = geometry::frame_of(wall.curve);
   if (const double share = shapes::share_of_landing(frame, sizes); share > shapes::largest_share) {
     const std::string share_text = shapes::shown(share);

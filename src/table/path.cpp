@@ -16,7 +16,7 @@ Chain path_loop(const LoopSpec& loop, std::size_t walls_before) {
   Chain chain;
   for (const PieceSpec& piece : loop.pieces) {
     const Vector to = point(piece.to);
-    if (to == from) {
+    if (to == from && piece.kind != PieceSpec::Kind::bezier) {
       throw InputError(piece.place, "the piece ends where it begins", "two different points");
     }
     const std::size_t number = walls_before + chain.size() + 1;

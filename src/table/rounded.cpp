@@ -1,6 +1,7 @@
 // Written curves in doubles: each number is rounded once.
 #include <stdexcept>
 
+#include "carom/geometry/curve_frame.hpp"
 #include "table/direction.hpp"
 #include "table/numbers.hpp"
 #include "table/shapes.hpp"
@@ -31,6 +32,7 @@ struct Rounding {
                              size_of(derived(quoted(s.b) + "/" + quoted(s.a), s.b), "b/a"),
                              s.counterclockwise};
   }
+  geometry::Curve operator()(const geometry::Bezier& s) const { return s; }
   geometry::Curve operator()(const WrittenPiece& s) const {
     return curve_of(s.piece, point(s.from), point(s.piece.to));
   }
@@ -47,6 +49,17 @@ struct Rounding {
           throw InputError(piece.place, "no circular arc leads through these three points",
                            "arc_via beside the straight line to arc_to");
         }
+      case PieceSpec::Kind::bezier: {
+        geometry::Bezier curve{from, to, {}, static_cast<int>(piece.control.size()) + 1};
+        for (std::size_t i = 0; i < piece.control.size(); ++i)
+          curve.inner[i] = point(piece.control[i]);
+        try {
+          geometry::frame_of(curve);
+        } catch (const std::invalid_argument& fault) {
+          throw InputError(piece.place, fault.what(), "control points that differ, no cusp");
+        }
+        return curve;
+      }
       case PieceSpec::Kind::ellipse:
         break;
     }

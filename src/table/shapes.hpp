@@ -48,8 +48,8 @@ struct WrittenPiece {
   ExactPoint from;
   PieceSpec piece;
 };
-using WrittenCurve =
-    std::variant<WrittenSegment, WrittenArc, WrittenCircle, WrittenEllipse, WrittenPiece>;
+using WrittenCurve = std::variant<WrittenSegment, WrittenArc, WrittenCircle, WrittenEllipse,
+                                  WrittenPiece, geometry::Bezier>;
 
 /// A wall before it has neighbours.
 struct NamedCurve {
@@ -66,6 +66,7 @@ struct Shape {
   Extent extent = Extent::bounded;
   std::optional<LatticeSpec> lattice = {};
   ExactPoint cell_centre = {};
+  double curve_distance = 0.0;  ///< Table::curve_distance
 };
 
 /// The shape of a table with its obstacles and its lattice.
@@ -106,6 +107,12 @@ void set_lattice(Table&, const LatticeSpec&, geometry::Vector centre);
 void repeat(const LatticeSpec&, Table&);
 
 Shape path(const TableSpec&);
+/// A curve r(phi) about the origin, as Bézier curves.
+Shape polar_curve(const TableSpec&);
+/// A closed curve x(t), y(t), as Bézier curves.
+Shape parametric_curve(const TableSpec&);
+/// The periodic cubic spline through points, twice continuously differentiable.
+Shape spline_curve(const TableSpec&);
 
 /// The walls of [[table.obstacle]], after those of the shape.
 void add_obstacles(const TableSpec&, Shape&);

@@ -8,7 +8,7 @@ namespace carom::table {
 using namespace geometry;
 
 bool FlightSizes::is_thin(const CurveFrame& curve) const {
-  if (curve.kind == CurveFrame::Kind::segment) return false;
+  if (curve.kind == CurveFrame::Kind::segment || curve.bezier) return false;
   // Two products of two factors, each of up to (longest / minor)^2, and their factors, which err by
   // the rounding of coordinates: docs/physics/exactness.md.
   constexpr double u = 0x1p-53;

@@ -2,6 +2,8 @@
 
 #include <variant>
 
+#include "carom/base/error.hpp"
+
 namespace carom::trust {
 
 using certify::WallOf;
@@ -28,6 +30,9 @@ struct AsStored {
     const TwofoldVector to_centre = Twofold(0.5) * chord + Twofold(s.offset) * left(chord);
     return certify::arc_wall(from, as_twofold(s.to), from + to_centre, dot(to_centre, to_centre),
                              s.counterclockwise);
+  }
+  WallOf<Twofold> operator()(const geometry::Bezier&) const {
+    throw InternalError("the error of an orbit was asked for beside a Bézier curve");
   }
   WallOf<Twofold> operator()(const geometry::EllipticArc& s) const {
     const TwofoldVector from = as_twofold(s.from), chord = as_twofold(s.to) - from,

@@ -22,7 +22,7 @@ ENGINE = ["events", "forces", "geometry", "integrators", "lanes", "motion", "tab
 DEPENDENCIES = {
     "base": [],
     "geometry": [],
-    "table": ["geometry"],
+    "table": ["forces", "geometry"],
     "motion": ["geometry"],
     "forces": ["geometry", "motion"],
     "integrators": ["geometry"],

@@ -8,8 +8,10 @@
 #include <CGAL/Algebraic_kernel_d_1.h>
 #include <CGAL/CORE_BigInt.h>
 
+#include <algorithm>
 #include <iterator>
 #include <mutex>
+#include <sstream>
 #include <utility>
 
 namespace carom::geometry {
@@ -35,8 +37,8 @@ const Kernel& kernel() {
 // By its digits: CGAL 5's is a class of its own, CGAL 6's is Boost's.
 CORE::BigInt big(const mpz_class& z) { return CORE::BigInt(z.get_str()); }
 
-/// The polynomial times a positive integer.
-IntegerPolynomial integer_polynomial(const Polynomial& polynomial) {
+/// The coefficients times a positive integer.
+std::vector<CORE::BigInt> integers_of(const Polynomial& polynomial) {
   mpz_class denominator = 1;
   std::vector<mpq_class> rational;
   for (const Dyadic& c : polynomial) {
@@ -46,6 +48,10 @@ IntegerPolynomial integer_polynomial(const Polynomial& polynomial) {
   std::vector<CORE::BigInt> integers;
   for (const mpq_class& c : rational)
     integers.push_back(big(mpz_class(c.get_num() * (denominator / c.get_den()))));
+  return integers;
+}
+IntegerPolynomial integer_polynomial(const Polynomial& polynomial) {
+  const std::vector<CORE::BigInt> integers = integers_of(polynomial);
   return IntegerPolynomial(integers.begin(), integers.end());
 }
 
@@ -55,9 +61,8 @@ struct AlgebraicRoot::Data {
   Kernel::Algebraic_real_1 value;
 };
 
-std::vector<RealRoot> real_roots(const Polynomial& polynomial) {
-  const auto turn = alone();
-  const IntegerPolynomial p = integer_polynomial(polynomial);
+namespace {
+std::vector<RealRoot> real_roots(const IntegerPolynomial& p) {
   std::vector<RealRoot> result;
   if (p.degree() < 1) return result;
   std::vector<std::pair<Kernel::Algebraic_real_1, Kernel::Multiplicity_type>> roots;
@@ -67,6 +72,12 @@ std::vector<RealRoot> real_roots(const Polynomial& polynomial) {
         {AlgebraicRoot(std::make_shared<const AlgebraicRoot::Data>(AlgebraicRoot::Data{value})),
          static_cast<int>(multiplicity)});
   return result;
+}
+
+}  // namespace
+std::vector<RealRoot> real_roots(const Polynomial& polynomial) {
+  const auto turn = alone();
+  return real_roots(integer_polynomial(polynomial));
 }
 
 std::vector<AlgebraicRoot> rising_roots(const Polynomial& polynomial) {
@@ -115,6 +126,75 @@ int sign_at(const Polynomial& polynomial, const AlgebraicRoot& root) {
     value.refine();
   }
   return static_cast<int>(p.sign_at(value.low()));
+}
+
+namespace {
+
+mpq_class rational(const Kernel::Bound& bound) {
+  std::ostringstream text;
+  text << CGAL::Rational_traits<Kernel::Bound>().numerator(bound) << '/'
+       << CGAL::Rational_traits<Kernel::Bound>().denominator(bound);
+  mpq_class q(text.str());
+  q.canonicalize();
+  return q;
+}
+
+struct RationalRange {
+  mpq_class low, high;
+};
+RationalRange range_of(const Polynomial& p, const mpq_class& low, const mpq_class& high) {
+  RationalRange sum{0, 0};
+  for (std::size_t k = p.size(); k-- > 0;) {
+    const mpq_class products[] = {sum.low * low, sum.low * high, sum.high * low, sum.high * high};
+    const mpq_class c = p[k].rational();
+    sum = {*std::min_element(products, products + 4) + c,
+           *std::max_element(products, products + 4) + c};
+  }
+  return sum;
+}
+
+}  // namespace
+
+AlgebraicRoot quotient_at(const Dyadic& c, const Polynomial& p, const AlgebraicRoot& x) {
+  // k p(u) - c, a polynomial in u with coefficients in k, has a root in common with x's polynomial
+  // exactly where their resultant vanishes.
+  using Two = CGAL::Polynomial_type_generator<CORE::BigInt, 2>::Type;
+  std::vector<RealRoot> candidates;
+  {
+    const auto turn = alone();
+    Polynomial all = p;
+    all.push_back(c);
+    const std::vector<CORE::BigInt> integers = integers_of(all);
+    std::vector<IntegerPolynomial> left, right;
+    for (std::size_t i = 0; i < p.size(); ++i)
+      left.push_back(i == 0 ? IntegerPolynomial(-integers.back(), integers[0])
+                            : IntegerPolynomial(CORE::BigInt(0), integers[i]));
+    const IntegerPolynomial& f = x.data().value.polynomial();
+    for (int i = 0; i <= f.degree(); ++i) right.emplace_back(f[i]);
+    candidates =
+        real_roots(CGAL::resultant(Two(left.begin(), left.end()), Two(right.begin(), right.end())));
+  }
+  for (;;) {
+    mpq_class low, high;
+    {
+      const auto turn = alone();
+      x.data().value.refine();
+      low = rational(x.data().value.low());
+      high = rational(x.data().value.high());
+    }
+    const RationalRange value = range_of(p, low, high);
+    if (sgn(value.low) * sgn(value.high) <= 0) continue;
+    mpq_class first = c.rational() / value.low, last = c.rational() / value.high;
+    if (first > last) std::swap(first, last);
+    const RealRoot* found = nullptr;
+    int count = 0;
+    for (const RealRoot& candidate : candidates)
+      if (compare(candidate.value, first) >= 0 && compare(candidate.value, last) <= 0) {
+        found = &candidate;
+        ++count;
+      }
+    if (count == 1) return found->value;
+  }
 }
 
 double approximate(const AlgebraicRoot& root) {

@@ -46,6 +46,8 @@ struct Table {
   std::optional<geometry::Lattice> lattice;  ///< set exactly when extent == lattice
   /// May walls cross? Not those of a table that was built; the edges of supports of forces do.
   bool crossing = false;
+  /// Between a curve that was written as a formula and the walls made of it, at most.
+  double curve_distance = 0.0;
 
   /// The wall with that index, as events and states name it. Throws std::out_of_range for -1: no
   /// wall.

@@ -17,13 +17,14 @@ struct ExactPoint {
 };
 
 /// One piece of a path: which keys are set decides its kind (docs/guide/system-file.md: line_to,
-/// arc_via + arc_to, ellipse_via + ellipse_to + ellipse_ratio + ellipse_angle).
+/// arc_via + arc_to, ellipse_via + ellipse_to + ellipse_ratio + ellipse_angle, bezier).
 struct PieceSpec {
-  enum class Kind { line, arc, ellipse } kind = Kind::line;
+  enum class Kind { line, arc, ellipse, bezier } kind = Kind::line;
   ExactPoint to;
-  ExactPoint via;            ///< arc, ellipse
-  ExactNumber ratio, angle;  ///< ellipse: minor over major axis, angle of the major one
-  std::string name;          ///< "" : wall_1, wall_2 … over the whole table
+  ExactPoint via;                   ///< arc, ellipse
+  ExactNumber ratio, angle;         ///< ellipse: minor over major axis, angle of the major one
+  std::vector<ExactPoint> control;  ///< bezier: the points between its ends
+  std::string name;                 ///< "" : wall_1, wall_2 … over the whole table
   Place place;
 };
 
@@ -72,6 +73,12 @@ struct LatticeSpec {
   Place place;
 };
 
+/// An expression that was written, and where.
+struct WrittenFormula {
+  std::string text;
+  Place place;
+};
+
 /// `numbers`, `points`, `lists` and `words` hold the keys of the shape by name
 /// (docs/guide/system-file.md): width, height, radius, sides, angle, a, b, outer, inner, offset,
 /// half_length, cap_radius, stem_width, stem_height, separation, side, spacing, count, seed;
@@ -83,8 +90,9 @@ struct TableSpec {
   std::map<std::string, std::vector<ExactPoint>> points;
   std::map<std::string, std::vector<ExactNumber>> lists;
   std::map<std::string, std::string> words;
-  bool torus = true;            ///< sinai, random-discs
-  std::vector<LoopSpec> loops;  ///< path
+  std::map<std::string, WrittenFormula> formulas;  ///< polar: radius; parametric: x, y
+  bool torus = true;                               ///< sinai, random-discs
+  std::vector<LoopSpec> loops;                     ///< path
   std::vector<ObstacleSpec> obstacles;
   std::vector<HoleSpec> holes;
   std::vector<WallLawSpec> laws;  ///< the last that names a wall holds

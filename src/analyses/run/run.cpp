@@ -14,6 +14,7 @@
 #include "carom/starts/sampler.hpp"
 #include "engines/free_energies.hpp"
 #include "motion/free_motion.hpp"
+#include "table/bezier_wall.hpp"
 
 namespace carom {
 
@@ -445,6 +446,7 @@ class SingleRun {
 
 bool estimates_trust(const System& system) {
   return !system.dynamics.everywhere && !system.of_discs() && !scatters(*system.table) &&
+         table::bezier_wall(*system.table) == nullptr &&
          (!system.dynamics.forces || system.dynamics.forces->empty());
 }
 

@@ -42,13 +42,20 @@ struct WallBuilder {
   }
   WallOf<N> operator()(const table::shapes::WrittenPiece& s) const {
     const VectorOf<N> from = point(s.from), to = point(s.piece.to);
+    if (s.piece.kind == PieceSpec::Kind::bezier) refuse(s.piece.place);
     if (s.piece.kind == PieceSpec::Kind::line) return segment_wall(from, to);
     if (s.piece.kind == PieceSpec::Kind::arc)
       return arc_through(from, point(s.piece.via), to, s.piece.place);
     return elliptic_arc(from, s.piece);
   }
 
+  WallOf<N> operator()(const geometry::Bezier&) const { refuse({}); }
+
  private:
+  [[noreturn]] static void refuse(const Place& place) {
+    throw InputError(place, "orbits are not certified beside Bézier curves",
+                     "walls of segments, circles and ellipses");
+  }
   static WallOf<N> arc_through(const VectorOf<N>& from, const VectorOf<N>& via,
                                const VectorOf<N>& to, const Place& place) {
     const VectorOf<N> c = to - from, f = via - from;

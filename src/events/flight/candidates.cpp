@@ -120,6 +120,11 @@ double PieceTable::error_of(const Flight& f, const Ahead& ahead) const {
   const Origin o = origin_of(f, p.offset);
   if (is_rough(f, ahead.piece))  // the exact one, rounded; and the quotient that is a duration
     return 4.0 * options.filter_inflation * unit_roundoff * std::fabs(ahead.kappa);
+  if (p.kind == CurveKind::bezier) {
+    Crossing c;
+    return bezier_exit(f, ahead.piece, o, options.filter_inflation, c) == Sign::positive ? c.error
+                                                                                         : HUGE_VAL;
+  }
   if (is_quartic(f, ahead.piece)) {
     Crossing c;
     return first_exit(f, ahead.piece, o, options.filter_inflation, c) == Sign::positive ? c.error

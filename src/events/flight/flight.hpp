@@ -33,6 +33,7 @@ struct Ahead {
   int root = 0;
   double kappa = 0.0;
   double duration = 0.0;  ///< time from the start of the flight
+  double u = 0.0;         ///< on a Bézier curve: where
 };
 
 /// Duration of a flight to kappa.
@@ -55,6 +56,7 @@ struct Crossing {
   double error = -1.0;  ///< of its kappa; negative: not computed yet
   // Without field, kappa is unit / time, divided only where it is needed.
   double time = 0.0, unit = 1.0;
+  double u = 0.0;  ///< of a Bézier curve
 };
 
 }  // namespace carom::events

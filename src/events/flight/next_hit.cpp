@@ -164,7 +164,10 @@ template <bool larmor>
            : m.curve.kind == CurveKind::ellipse ? larmor_through_ellipse(m, c)
                                                 : larmor_through_circle(m, c);
   else
-    return segment ? line_through_segment(m, c) : line_through_conic(m, c);
+    return segment ? line_through_segment(m, c)
+           : m.curve.kind == CurveKind::bezier
+               ? m.table.bezier_exit(m.flight, m.piece, m.origin, m.origin.scale.inflation, c)
+               : line_through_conic(m, c);
 }
 
 /// Fills in what two crossings are compared by: kappa, which is kept as a quotient without field,
@@ -247,8 +250,9 @@ bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> 
     const int piece = listed ? list[at(k)] : k;
     const PieceTable::PieceData& p = t_.data[at(piece)];
     // At most two crossings, so the sides of its joints tell, except for a Larmor circle that may
-    // cross an ellipse four times.
-    const bool told = !p.closed && !(larmor && p.kind == CurveKind::ellipse);
+    // cross an ellipse four times, and for Bézier curves.
+    const bool told =
+        !p.closed && !(larmor ? p.kind == CurveKind::ellipse : p.kind == CurveKind::bezier);
     if (told && left_[at(piece)] != 0 && left_[at(p.next)] == 0) continue;  // it enters
     const Meeting m = meeting(piece);
     Crossing c;
@@ -296,6 +300,7 @@ bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> 
   }
   ahead.piece = best;
   ahead.root = 0;
+  ahead.u = first.u;
   ahead.kappa = larmor ? first.root.kappa : first.unit / first.time;
   ahead.duration = larmor ? duration_at(first.root.kappa, f.omega) : first.time / first.unit;
   ahead.kind = best < 0                 ? Ahead::Kind::none
@@ -337,6 +342,13 @@ Ahead HitFinder::exact_next(const Flight& f, const std::vector<int>& pieces) con
     ahead.kappa = dot(d, f.velocity) / dot(d, d);
   } else if (t_.is_rough(f, ahead.piece)) {
     ahead.kappa = first.kappa;
+  } else if (t_.piece(ahead.piece).kind == CurveKind::bezier) {
+    Crossing c;
+    const bool same = t_.bezier_exit(f, ahead.piece, origin, 1.0, c) == Sign::positive;
+    ahead.u = same ? c.u : first.u;
+    ahead.kappa = same ? c.root.kappa : first.kappa;
+    ahead.duration = same ? c.time / c.unit : 1.0 / first.kappa;
+    return ahead;
   } else if (t_.is_quartic(f, ahead.piece)) {
     Crossing c;
     const bool same = t_.first_exit(f, ahead.piece, origin, 1.0, c) == Sign::positive;

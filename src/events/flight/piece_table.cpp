@@ -257,6 +257,7 @@ void PieceTable::Preparation::find_enclosure(bool complement) {
   std::vector<int> loop, others;
   for (int i = 0; i < static_cast<int>(data.size()); ++i) {
     const PreparedCurve& w = curves[at(data[at(i)].curve)];
+    if (w.kind == CurveKind::bezier) return;
     const bool inside = w.kind == CurveKind::segment || w.orientation > 0;
     if (inside)
       loop.push_back(i);

@@ -85,6 +85,9 @@ struct PieceTable {
   /// Larmor circle against an ellipse: its first exit through the piece, if any, with its error.
   Sign first_exit(const Flight& flight, int piece, const Origin& origin, double inflation,
                   Crossing& crossing) const;
+  /// A line against a Bézier curve: its first exit through the piece, if any, with its error.
+  Sign bezier_exit(const Flight& flight, int piece, const Origin& origin, double inflation,
+                   Crossing& crossing) const;
   /// Both joints of an arc lie on one side: does the flight leave through it all the same?
   Sign crossed_twice(const Flight& flight, int piece, const Origin& origin) const;
   geometry::ExactFlight exact_flight(const Flight& flight) const;
@@ -272,7 +275,7 @@ struct PieceTable {
     landing.at.u = 0.0;
     return;
   }
-  w.arrive(end, landing.velocity, landing.at);
+  w.arrive(end, landing.velocity, landing.at, ahead.u);
   if (holed[static_cast<std::size_t>(landing.wall)] != 0)
     landing.hole = hole_at(f, ahead, landing.at.u, counts);
 }

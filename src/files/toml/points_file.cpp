@@ -9,7 +9,9 @@ namespace carom::files {
 
 void take_points_from_file(Value& table) {
   const Value* shape = table.find("shape");
-  if (shape == nullptr || (shape->text != "discs" && shape->text != "polygon")) return;
+  if (shape == nullptr ||
+      (shape->text != "discs" && shape->text != "polygon" && shape->text != "spline"))
+    return;
   const bool discs = shape->text == "discs";
   TomlSection section(table, "table", shape->text);
   if (!section.has("path")) return;
@@ -18,7 +20,8 @@ void take_points_from_file(Value& table) {
   section.exclude("path", key);
   const Value path = section.get("path");
   as_text(path);
-  const Row row = discs ? Row{"disc", "x y or x y radius", 2, 3} : Row{"corner", "x y", 2, 2};
+  const Row row = discs ? Row{"disc", "x y or x y radius", 2, 3}
+                        : Row{shape->text == "spline" ? "point" : "corner", "x y", 2, 2};
   Value points = rows_of_file(located(path), path.place, row);
   Value radii;
   radii.kind = Value::Kind::list;

@@ -9,8 +9,9 @@ namespace {
 // The order is that of the guide.
 const std::vector<std::string>& shapes() {
   static const std::vector<std::string> names{
-      "rectangle", "polygon", "triangle", "regular", "circle", "ellipse",      "annulus", "stadium",
-      "mushroom",  "lemon",   "sinai",    "lorentz", "discs",  "random-discs", "path",    "plane"};
+      "rectangle", "polygon",  "triangle",   "regular", "circle",  "ellipse", "annulus",
+      "stadium",   "mushroom", "lemon",      "sinai",   "lorentz", "discs",   "random-discs",
+      "path",      "polar",    "parametric", "spline",  "plane"};
   return names;
 }
 
@@ -79,13 +80,20 @@ PieceSpec read_piece(Value& value) {
   const bool line = value.find("line_to") != nullptr;
   const bool arc = value.find("arc_to") != nullptr || value.find("arc_via") != nullptr;
   const bool ellipse = value.find("ellipse_to") != nullptr || value.find("ellipse_via") != nullptr;
-  if (value.kind == Value::Kind::table && (line ? 1 : 0) + (arc ? 1 : 0) + (ellipse ? 1 : 0) > 1) {
-    throw InputError(value.place, "a piece is either a line or an arc or an ellipse",
-                     "one of line_to, arc_to, ellipse_to");
+  const bool bezier = value.find("bezier") != nullptr;
+  if (value.kind == Value::Kind::table &&
+      (line ? 1 : 0) + (arc ? 1 : 0) + (ellipse ? 1 : 0) + (bezier ? 1 : 0) > 1) {
+    throw InputError(value.place,
+                     "a piece is either a line or an arc or an ellipse or a Bézier curve",
+                     "one of line_to, arc_to, ellipse_to, bezier");
   }
   PieceSpec piece;
   piece.place = value.place;
-  TomlSection section(value, "table.loop.pieces", ellipse ? "ellipse" : arc ? "arc" : "line");
+  TomlSection section(value, "table.loop.pieces",
+                      ellipse  ? "ellipse"
+                      : bezier ? "bezier"
+                      : arc    ? "arc"
+                               : "line");
   section.check_keys();
   if (const Value* name = section.find("name")) piece.name = as_name(*name);
   if (arc) {
@@ -98,6 +106,18 @@ PieceSpec read_piece(Value& value) {
     piece.via = as_point(section.get("ellipse_via"));
     piece.ratio = as_number(section.get("ellipse_ratio"));
     piece.angle = as_angle(section.get("ellipse_angle"));
+  } else if (bezier) {
+    piece.kind = PieceSpec::Kind::bezier;
+    const Value& points = section.get("bezier");
+    piece.control = as_points(points);
+    constexpr std::size_t most = geometry::Bezier::most;
+    if (piece.control.size() < 2 || piece.control.size() > most)
+      throw InputError(
+          points.place,
+          "a Bézier curve with " + std::to_string(piece.control.size()) + " points after its start",
+          "2 to 5 points: control points and, last, the end");
+    piece.to = piece.control.back();
+    piece.control.pop_back();
   } else {
     piece.to = as_point(section.get("line_to"));
   }
@@ -116,12 +136,21 @@ LoopSpec read_loop(Value& value) {
   return loop;
 }
 
+/// Of the first character of a text.
+Place inside_quotes(const Value& text) {
+  Place place = text.place;
+  if (place.column > 0) ++place.column;
+  return place;
+}
+
 void read_key(const KeyDescription& key, const Value& value, TableSpec& spec) {
   const std::string name(key.key);
   if (key.type == "list of points") {
     spec.points[name] = as_points(value);
   } else if (key.type == "list of numbers") {
     spec.lists[name] = as_numbers(value);
+  } else if (key.type == "formula") {
+    spec.formulas[name] = {as_text(value), inside_quotes(value)};
   } else if (key.type == "string") {
     spec.words[name] = as_text(value);
   } else if (key.type == "boolean") {

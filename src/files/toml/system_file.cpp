@@ -13,6 +13,7 @@
 #include "files/text_file.hpp"
 #include "files/toml/overrides.hpp"
 #include "files/toml/read.hpp"
+#include "table/bezier_wall.hpp"
 
 namespace carom {
 namespace {
@@ -74,6 +75,22 @@ void check_scales(const Value& root, const System& system, const Table& table) {
   if (fault.empty()) return;
   throw InputError(root.find("particles")->place, fault,
                    "other units, in which lengths, speeds and frequencies are nearer to 1");
+}
+
+// Bézier curves are met by straight flights alone, so far.
+void check_beziers(const Value& root, const System& system, const Table& table) {
+  const Wall* wall = table::bezier_wall(table);
+  if (wall == nullptr) return;
+  const std::string what = "beside Bézier curves, of which wall '" + wall->name + "' is one";
+  if (std::any_of(system.particles.begin(), system.particles.end(),
+                  [](const Particle& p) { return p.omega != 0.0; }))
+    throw InputError(root.find("field")->place, "a magnetic field " + what + ", is not there yet",
+                     "walls of segments, circles and ellipses, or no field");
+  if (system.dynamics.forces->empty() && !system.of_discs()) return;
+  const Value* forces = root.find("potential");
+  if (forces == nullptr) forces = root.find("interaction");
+  throw InputError(forces->place, "forces " + what + ", are not there yet",
+                   "walls of segments, circles and ellipses, or no forces");
 }
 
 // Samples are counted as steps are.
@@ -174,9 +191,10 @@ LoadedSystem read_system(std::string_view toml, const std::string& file,
   auto spec = std::make_shared<const TableSpec>(files::read_table(root));
   auto table = std::make_shared<Table>(build_table(*spec));
   system.particles = files::read_particles(root);
-  check_scales(root, system, *table);
   const ForceSpec forces = files::read_forces(root, system.particles.size());
   system.dynamics.forces = ForceField::build(forces, system.particles, table->lattice);
+  check_beziers(root, system, *table);
+  check_scales(root, system, *table);
   const std::vector<double>& radii = system.dynamics.forces->disc_radii();
   for (std::size_t p = 0; p < radii.size(); ++p) system.particles[p].radius = radii[p];
   system.dynamics.integrator = files::read_integrator(root, !system.dynamics.forces->empty(),

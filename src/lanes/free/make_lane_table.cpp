@@ -2,6 +2,7 @@
 
 #include "base/index.hpp"
 #include "lanes/free/exit_by_signs.hpp"
+#include "table/bezier_wall.hpp"
 #include "table/thin_walls.hpp"
 
 #include <algorithm>
@@ -300,6 +301,7 @@ std::string misfit(const Table& table, double reach) {
   if (pieces == 0) return "there are no walls";
   if (pieces > LaneTable::most) return "more than 64 walls, the parts between holes counted";
   if (table.crossing) return "walls cross";
+  if (table::bezier_wall(table) != nullptr) return "Bézier curves among the walls";
   if (table::has_thin_walls(table)) return "walls so thin that hits on them are computed exactly";
   if (!table.lattice) return {};
   if (!discs_within_cell(table)) return "walls on a lattice that are no discs inside its cell";

@@ -7,7 +7,7 @@
 
 namespace carom::geometry {
 
-/// "segment", "circular arc", "circle", "elliptic arc" or "ellipse".
+/// "segment", "circular arc", "circle", "elliptic arc", "ellipse" or "bezier".
 const char* kind_name(const Curve&);
 
 /// The points centre + a cos(phi) e + b sin(phi) left(e) with e = (cos(axis), sin(axis)), phi from
@@ -17,7 +17,7 @@ struct Arc {
   double a = 0.0, b = 0.0, axis = 0.0;
   double from = 0.0, to = 0.0;  ///< from < to: counter-clockwise
 };
-/// Nothing for a segment. Costs what a frame costs, about 4 µs.
+/// Nothing for a segment or a Bézier curve. Costs what a frame costs, about 4 µs.
 std::optional<Arc> arc_of(const Curve&);
 
 }  // namespace carom::geometry

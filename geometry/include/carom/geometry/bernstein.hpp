@@ -13,18 +13,18 @@ namespace carom::geometry {
 
 /// The polynomial lies between its smallest and its largest coefficient; b[0] and b[degree] are its
 /// values at 0 and 1.
-template <class Number>
+template <class Number, std::size_t most = 4>
 struct BernsteinPolynomial {
-  std::array<Number, 5> b{};
-  std::size_t degree = 4;
+  std::array<Number, most + 1> b{};
+  std::size_t degree = most;
 };
 
 /// Of a polynomial given by its powers. `share(c, m, n)` is c m/n, or the same multiple of it for
 /// all m and n; both are whole numbers, and n is 1 only where m is, too.
-template <class Powers, class Share>
+template <std::size_t most = 4, class Powers, class Share>
 auto bernstein_form(const Powers& c, std::size_t degree, const Share& share)
-    -> BernsteinPolynomial<decltype(share(c[0], 1, 1))> {
-  BernsteinPolynomial<decltype(share(c[0], 1, 1))> p;
+    -> BernsteinPolynomial<decltype(share(c[0], 1, 1)), most> {
+  BernsteinPolynomial<decltype(share(c[0], 1, 1)), most> p;
   p.degree = degree;
   for (std::size_t i = 0; i <= degree; ++i) {
     p.b[i] = share(c[0], 1, 1);
@@ -45,9 +45,9 @@ struct SignChanges {
   bool certain = true;                                   ///< all signs are
   int least = 0, most = 0;
 };
-template <class Number, class SignOf>
-SignChanges sign_changes(const BernsteinPolynomial<Number>& p, const SignOf& sign_of) {
-  std::array<Sign, 5> s{};
+template <class Number, std::size_t most, class SignOf>
+SignChanges sign_changes(const BernsteinPolynomial<Number, most>& p, const SignOf& sign_of) {
+  std::array<Sign, most + 1> s{};
   SignChanges r;
   Sign before = Sign::undecided;
   const auto known = [](Sign a) { return a == Sign::negative || a == Sign::positive; };
@@ -77,13 +77,13 @@ Number mean_of(const Number& a, const Number& b) {
 }
 
 /// The same polynomial on [0, 1/2] and on [1/2, 1].
-template <class Number>
+template <class Number, std::size_t most = 4>
 struct Halves {
-  BernsteinPolynomial<Number> left, right;
+  BernsteinPolynomial<Number, most> left, right;
 };
-template <class Number>
-Halves<Number> halves_of(const BernsteinPolynomial<Number>& p) {
-  Halves<Number> h{p, p};
+template <class Number, std::size_t most>
+Halves<Number, most> halves_of(const BernsteinPolynomial<Number, most>& p) {
+  Halves<Number, most> h{p, p};
   for (std::size_t level = 1; level <= p.degree; ++level) {
     for (std::size_t k = 0; k + level <= p.degree; ++k)
       h.right.b[k] = mean_of(h.right.b[k], h.right.b[k + 1]);
@@ -95,12 +95,12 @@ Halves<Number> halves_of(const BernsteinPolynomial<Number>& p) {
 /// Halves [from, to], on which p is the polynomial, until `look(p, from, to, depth)` tells whether
 /// the search goes on; it answers nothing where p must be halved. `ascending`: from `from` to `to`.
 /// True if the search went on to the end.
-template <class Number, class Place, class Look>
-bool isolate(const BernsteinPolynomial<Number>& p, const Place& from, const Place& to,
+template <class Number, std::size_t most, class Place, class Look>
+bool isolate(const BernsteinPolynomial<Number, most>& p, const Place& from, const Place& to,
              bool ascending, int depth, const Look& look) {
   const std::optional<bool> goes_on = look(p, from, to, depth);
   if (goes_on) return *goes_on;
-  const Halves<Number> half = halves_of(p);
+  const Halves<Number, most> half = halves_of(p);
   const Place middle = Place(0.5) * (from + to);
   if (ascending)
     return isolate(half.left, from, middle, ascending, depth + 1, look) &&

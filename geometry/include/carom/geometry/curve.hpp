@@ -15,9 +15,11 @@
 // angle: with a = start - centre and b its quarter turn in the direction of travel,
 //   centre + ((1 - w^2) a + 2 w b)/(1 + w^2)           for n = 0,
 // and (a, b) -> (b, -a) for each further quarter. Full circles and ellipses: 0 <= u < 4.
+// Bézier curve of degree n: sum of C(n, i) u^i (1 - u)^(n - i) times control point i, 0 <= u < 1.
 // docs/physics/exactness.md derives what follows from this.
 #pragma once
 
+#include <array>
 #include <string>
 #include <variant>
 
@@ -62,7 +64,18 @@ struct Ellipse {
   bool counterclockwise = true;
 };
 
-using Curve = std::variant<Segment, CircularArc, Circle, EllipticArc, Ellipse>;
+/// A polynomial curve, exactly through both of its ends.
+struct Bezier {
+  static constexpr int most = 5;  ///< degree
+  Vector from, to;
+  std::array<Vector, most - 1> inner{};  ///< the control points between the ends: degree - 1
+  int degree = 3;                        ///< 2 to 5
+  Vector control(int i) const {
+    return i == 0 ? from : i == degree ? to : inner[static_cast<std::size_t>(i - 1)];
+  }
+};
+
+using Curve = std::variant<Segment, CircularArc, Circle, EllipticArc, Ellipse, Bezier>;
 
 /// True for a full circle or ellipse: a loop by itself, without a joint.
 bool is_closed(const Curve&);
@@ -70,7 +83,8 @@ bool is_closed(const Curve&);
 Vector start_point(const Curve&);
 Vector end_point(const Curve&);
 
-/// The parameter of the end (1, 4, or the rounded parameter of `to`).
+/// The parameter of the end (1 of segments and Bézier curves, 4 of closed curves, or the rounded
+/// parameter of `to`).
 double end_parameter(const Curve&);
 /// Largest double whose exact point lies before the end.
 double last_parameter(const Curve&);

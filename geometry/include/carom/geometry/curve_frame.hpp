@@ -2,6 +2,9 @@
 // of curve.hpp are these with the frame built on the spot.
 #pragma once
 
+#include <memory>
+
+#include "carom/geometry/bezier.hpp"
 #include "carom/geometry/curve.hpp"
 #include "carom/geometry/parameter.hpp"
 
@@ -9,15 +12,16 @@ namespace carom::geometry {
 
 /// A curve with everything exact done, in doubles.
 struct CurveFrame : Frame<double> {
-  enum class Kind : unsigned char { segment, arc, closed } kind = Kind::segment;
+  enum class Kind : unsigned char { segment, arc, closed, bezier } kind = Kind::segment;
   bool circular = false;
   double turn = 0.0;   ///< +1 counter-clockwise, -1 clockwise, 0 segment
   Vector middle;       ///< centre, rounded
-  double major = 0.0;  ///< semi-axes (radius of a circle, length of a segment)
+  double major = 0.0;  ///< semi-axes (radius of a circle, length of a segment, least |dx/du|)
   double minor = 0.0;
   /// Cosine and sine of the eccentric angle of the start, counted in the direction of travel from
   /// an end of the minor axis.
   Vector phase{1.0, 0.0};
+  std::shared_ptr<const BezierForm> bezier = {};  ///< of a Bézier curve, else null
 };
 
 /// Costs about 4 µs (exact arithmetic): make it once a curve. Throws std::invalid_argument for a
@@ -25,15 +29,20 @@ struct CurveFrame : Frame<double> {
 CurveFrame frame_of(const Curve&);
 
 inline Vector point_at(const CurveFrame& f, double u) {
-  return f.kind == CurveFrame::Kind::segment ? segment_point(f, u) : conic_point(f, u);
+  return f.kind == CurveFrame::Kind::segment ? segment_point(f, u)
+         : f.bezier                          ? f.bezier->point(u)
+                                             : conic_point(f, u);
 }
 inline double parameter_of(const CurveFrame& f, Vector point) {
   return f.kind == CurveFrame::Kind::segment ? segment_parameter(f, point, first_parameter)
+         : f.bezier                          ? f.bezier->parameter_near(point)
                                              : conic_parameter(f, point, first_parameter);
 }
 /// Tangent of any length in the direction of travel.
 inline Vector direction_at(const CurveFrame& f, double u) {
-  return f.kind == CurveFrame::Kind::segment ? f.a : conic_direction(f, u);
+  return f.kind == CurveFrame::Kind::segment ? f.a
+         : f.bezier                          ? f.bezier->derivative(u)
+                                             : conic_direction(f, u);
 }
 Vector tangent_at(const CurveFrame&, double u);
 Vector normal_at(const CurveFrame&, double u);

@@ -71,9 +71,10 @@ class ExactFlight {
   /// What lies first ahead among the given pieces, all displaced by `cell`.
   struct First {
     enum class Kind { none, exit, joint, cusp } kind = Kind::none;
-    int piece = -1;      ///< the piece left through, or the one that starts at the joint
-    int root = 0;        ///< which of the piece's exits, counted along the flight (quartics only)
+    int piece = -1;  ///< the piece left through, or the one that starts at the joint
+    int root = 0;    ///< which of the piece's exits, counted along the flight (quartics, Bézier)
     double kappa = 0.0;  ///< rounded, for the rare crossing that doubles cannot resolve
+    double u = 0.0;      ///< rounded, of a crossing with a Bézier curve
   };
   /// `entry`: the edge through which the flight came into this cell, or -1. Exits through edges
   /// before that crossing do not count. `start` tells which piece of the list, if any, is the one

@@ -15,9 +15,9 @@ namespace carom::geometry {
 /// One operation of doubles errs by at most this share of its result (half the spacing at 1).
 inline constexpr double unit_roundoff = 0x1p-53;
 
-enum class CurveKind : unsigned char { segment, circle, ellipse };
+enum class CurveKind : unsigned char { segment, circle, ellipse, bezier };
 /// How a hit is put on a curve.
-enum class LandingKind : unsigned char { segment, circle, ellipse, thin };
+enum class LandingKind : unsigned char { segment, circle, ellipse, thin, bezier };
 
 /// A curve with all that the filter's formulas and bounds take from it, computed once.
 struct PreparedCurve {
@@ -84,7 +84,8 @@ struct PreparedCurve {
     double factor = 0.0;
     double u = 0.0;
   };
-  [[gnu::always_inline]] void arrive(Vector x, Vector v, Arrival& a) const {
+  /// `u`: of a Bézier curve, where the flight meets it.
+  [[gnu::always_inline]] void arrive(Vector x, Vector v, Arrival& a, double u = 0.0) const {
     if (landing == LandingKind::segment) {
       set(a, settle_on_segment(x));
       a.factor = 2.0 * fused_dot(v, a.normal);  // of a unit vector
@@ -95,14 +96,14 @@ struct PreparedCurve {
       else if (landing == LandingKind::ellipse)
         arrive_on_ellipse(x, v, a);
       else
-        return void(a = arrival_by_line(x, v));
+        return void(a = landing == LandingKind::thin ? arrival_by_line(x, v) : arrival_at(u, v));
       a.u = conic_parameter(parametrisation, a.point, first_parameter);
     }
     if (!(a.u > first_parameter && a.u < last())) [[unlikely]]
       reflect_by(frame(a.u), v, a);  // put there, off the joints
   }
   Frame frame(double u) const {
-    if (thin()) return frame_at(u);
+    if (landing > LandingKind::ellipse) return frame_at(u);
     const Frame f = settle(point(u));
     return {point(u), f.normal, f.square, f.k};
   }
@@ -123,7 +124,7 @@ struct PreparedCurve {
     a.normal.y = -orientation * d.y;
     a.factor = -orientation * reflection_factor_on_circle(v, d, strength, step);
   }
-  /// The frame of a conic at u, made of u alone.
+  /// The frame of a conic or Bézier curve at u, made of u alone.
   Frame frame_at(double u) const;
   [[gnu::always_inline]] void arrive_on_ellipse(Vector x, Vector v, Arrival& a) const {
     const Vector e = x - centre;
@@ -136,6 +137,8 @@ struct PreparedCurve {
   /// point farther off than one step mends. By value: an arrival whose address is given away lives
   /// in memory, and hits wait for it.
   Arrival arrival_by_line(Vector x, Vector v) const;
+  Arrival arrival_at(double u, Vector v) const;
+  void prepare_bezier();
   [[gnu::always_inline]] static void reflect_by(const Frame& f, Vector v, Arrival& a) {
     set(a, f);
     a.factor = reflection_factor(v, f.normal, f.square, f.k);

@@ -1,0 +1,300 @@
+// Curves that are no segments or conics, as Bézier curves: r(phi), and splines through points.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "carom/base/elementary.hpp"
+#include "carom/geometry/curve_frame.hpp"
+#include "forces/formula_bound.hpp"
+#include "table/numbers.hpp"
+#include "table/shapes.hpp"
+
+namespace carom::table::shapes {
+namespace {
+
+using geometry::Bezier;
+using geometry::Vector;
+
+constexpr double two_pi = 6.283185307179586;
+
+/// A place on a curve with its first two derivatives.
+struct Jet {
+  double at;
+  Vector x, first, second;
+};
+
+/// The curve of degree 5 that has both jets.
+Bezier quintic(const Jet& a, const Jet& b) {
+  const double h = 0.2 * (b.at - a.at), bend = 0.05 * (b.at - a.at) * (b.at - a.at);
+  return {a.x,
+          b.x,
+          {a.x + h * a.first, a.x + (2.0 * h) * a.first + bend * a.second,
+           b.x - (2.0 * h) * b.first + bend * b.second, b.x - h * b.first},
+          5};
+}
+
+using Formula = TypedExpression;
+
+Formula parsed(const WrittenFormula& written, const char* variable) {
+  const std::vector<std::string> variables{variable};
+  return Formula::parse(written.text, variables, {}, written.place);
+}
+
+/// r(phi).
+struct Polar {
+  static constexpr const char* variable = "phi";
+  static constexpr const char* expected =
+      "a radius that is positive, smooth and has the period 2 pi";
+  Place place;
+  Formula radius;
+  double from = 0.0, to = two_pi;
+
+  Jet jet(double phi) const {
+    double slope = 0.0, bend = 0.0;
+    const double r = radius.value_gradient_and_hessian({&phi, 1}, {&slope, 1}, {&bend, 1});
+    const elementary::SinCos t = elementary::sincos(phi);
+    const Vector out{t.cos, t.sin}, across{-t.sin, t.cos};
+    // Nothing where the radius is negative, too.
+    return {phi, (r > 0.0 ? r : NAN) * out, slope * out + r * across,
+            (bend - r) * out + (2.0 * slope) * across};
+  }
+  /// |cos|, |sin| <= cosh rho.
+  double largest_near(double low, double high, double rho) const {
+    return 0.7072 * (elementary::exp(rho) + elementary::exp(-rho)) *
+           forces::largest_near(radius, low, high, rho);
+  }
+};
+
+/// x(t), y(t).
+struct Parametric {
+  static constexpr const char* variable = "t";
+  static constexpr const char* expected = "x and y that are smooth, and end as they begin";
+  Place place;
+  Formula x, y;
+  double from, to;
+
+  Jet jet(double t) const {
+    Jet j{t, {}, {}, {}};
+    j.x.x = x.value_gradient_and_hessian({&t, 1}, {&j.first.x, 1}, {&j.second.x, 1});
+    j.x.y = y.value_gradient_and_hessian({&t, 1}, {&j.first.y, 1}, {&j.second.y, 1});
+    return j;
+  }
+  double largest_near(double low, double high, double rho) const {
+    const double a = forces::largest_near(x, low, high, rho),
+                 b = forces::largest_near(y, low, high, rho);
+    return 1.0001 * std::sqrt(a * a + b * b);
+  }
+};
+
+/// A closed curve given by formulas, as Bézier curves.
+template <class Curve>
+class Drawing {
+ public:
+  explicit Drawing(Curve curve) : curve_(std::move(curve)) {}
+
+  Shape shape() {
+    // Four parts at least, so that no piece of a simple curve turns by more than a right angle.
+    constexpr std::size_t parts = 4;
+    std::array<Jet, parts + 1> jets;
+    const double length = curve_.to - curve_.from;
+    for (std::size_t k = 0; k < parts; ++k) {
+      jets[k] = jet(curve_.from + length * (0.25 * static_cast<double>(k)));
+      size_ = std::max(size_, length_of(jets[k].x));
+    }
+    jets[parts] = closing(jets[0]);
+    for (std::size_t k = 0; k < parts; ++k) cut(jets[k], jets[k + 1], 0);
+    double area = 0.0;
+    for (const Bezier& piece : pieces_) area += geometry::area_integral(piece);
+    if (area < 0.0) {
+      std::reverse(pieces_.begin(), pieces_.end());
+      for (Bezier& piece : pieces_) piece = std::get<Bezier>(geometry::reversed(piece));
+    }
+    Shape shape;
+    const std::vector<std::string> names = numbered("curve", pieces_.size());
+    Chain chain;
+    for (std::size_t k = 0; k < pieces_.size(); ++k) chain.push_back({names[k], pieces_[k]});
+    shape.loops.push_back(std::move(chain));
+    shape.curve_distance = distance_;
+    return shape;
+  }
+
+ private:
+  static double length_of(Vector v) { return std::sqrt(dot(v, v)); }
+  [[noreturn]] void refuse(const std::string& problem, double at) const {
+    throw InputError(curve_.place,
+                     problem + " near " + Curve::variable + " = " + std::to_string(at),
+                     Curve::expected);
+  }
+
+  Jet jet(double at) const {
+    const Jet j = curve_.jet(at);
+    for (const Vector& v : {j.x, j.first, j.second})
+      if (!std::isfinite(v.x) || !std::isfinite(v.y))
+        refuse("the curve or one of its first two derivatives has no value", at);
+    return j;
+  }
+  /// The end is the start, where the formulas have the same values and slopes to rounding.
+  Jet closing(const Jet& start) const {
+    Jet end = jet(curve_.to);
+    const double size = length_of(end.x) + length_of(end.first) + length_of(end.second);
+    if (length_of(end.x - start.x) + length_of(end.first - start.first) > 0x1p-36 * size)
+      refuse("the curve does not close smoothly: it ends elsewhere, or in another direction",
+             curve_.to);
+    end = start;
+    end.at = curve_.to;
+    return end;
+  }
+
+  /// How far the quintic is from the curve at most: docs/physics/exactness.md, Bézier curves. h is
+  /// half of the length, `circle` the radius of Cauchy's circle about the middle.
+  double distance(const Jet& a, const Jet& b) const {
+    const double h = 0.5 * (b.at - a.at), h6 = h * h * h * h * h * h;
+    double least = HUGE_VAL;
+    for (double circle = 4.0; circle > 1.5 * h; circle *= 0.75) {
+      const double around = circle * circle - h * h;
+      const double m = curve_.largest_near(a.at - (circle - h), b.at + (circle - h), circle);
+      const double bound = h6 * m * circle / (around * around * around * (circle - h));
+      if (bound < least) least = bound;
+    }
+    return least;
+  }
+
+  void cut(const Jet& a, const Jet& b, int depth) {
+    const double off = distance(a, b);
+    if (off <= 1e-14 * size_) {
+      pieces_.push_back(quintic(a, b));
+      try {
+        geometry::frame_of(pieces_.back());
+      } catch (const std::invalid_argument&) {
+        refuse("the curve has a cusp", a.at);
+      }
+      distance_ = std::max(distance_, off);
+      return;
+    }
+    const Jet middle = jet(0.5 * (a.at + b.at));
+    constexpr int deepest = 12;
+    if (depth == deepest) refuse("the curve is too wild for Bézier curves", middle.at);
+    cut(a, middle, depth + 1);
+    cut(middle, b, depth + 1);
+  }
+
+  Curve curve_;
+  double size_ = 0.0, distance_ = 0.0;
+  std::vector<Bezier> pieces_;
+};
+
+/// Solves l[k] x[k-1] + d[k] x[k] + u[k] x[k+1] = r[k] around a circle: Thomas' algorithm with the
+/// corners as a correction of rank one. Diagonally dominant, so without pivots.
+std::vector<Vector> solve_around(const std::vector<double>& l, std::vector<double> d,
+                                 const std::vector<double>& u, std::vector<Vector> r) {
+  const std::size_t n = d.size();
+  const double corner = -d[0];
+  std::vector<double> z(n, 0.0);
+  z[0] = corner;
+  z[n - 1] = u[n - 1];
+  d[0] -= corner;
+  d[n - 1] -= l[0] * u[n - 1] / corner;
+  for (std::size_t k = 1; k < n; ++k) {
+    const double share = l[k] / d[k - 1];
+    d[k] -= share * u[k - 1];
+    r[k] = r[k] - share * r[k - 1];
+    z[k] -= share * z[k - 1];
+  }
+  for (std::size_t k = n; k-- > 0;) {
+    const bool last = k + 1 == n;
+    r[k] = (1.0 / d[k]) * (last ? r[k] : r[k] - u[k] * r[k + 1]);
+    z[k] = (last ? z[k] : z[k] - u[k] * z[k + 1]) / d[k];
+  }
+  const double back = l[0] / corner, weight = 1.0 + z[0] + back * z[n - 1];
+  const Vector share = (1.0 / weight) * (r[0] + back * r[n - 1]);
+  for (std::size_t k = 0; k < n; ++k) r[k] = r[k] - z[k] * share;
+  return r;
+}
+
+/// The derivatives at the points of the periodic cubic spline whose parameter grows by the length
+/// of the chords.
+std::vector<Vector> slopes_at(const std::vector<Vector>& points, const std::vector<double>& chord) {
+  const std::size_t n = points.size();
+  std::vector<double> l(n), d(n), u(n);
+  std::vector<Vector> r(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t before = (k + n - 1) % n, next = (k + 1) % n;
+    const double a = chord[before], b = chord[k];
+    l[k] = b;
+    d[k] = 2.0 * (a + b);
+    u[k] = a;
+    r[k] =
+        (3.0 * b / a) * (points[k] - points[before]) + (3.0 * a / b) * (points[next] - points[k]);
+  }
+  return solve_around(l, d, u, r);
+}
+
+}  // namespace
+
+namespace {
+const WrittenFormula& formula(const TableSpec& spec, const char* key, const char* example) {
+  const auto found = spec.formulas.find(key);
+  if (found != spec.formulas.end()) return found->second;
+  throw InputError(place_of(spec, key), "the shape '" + spec.shape + "' needs '" + key + "'",
+                   std::string("a formula, as in ") + example);
+}
+}  // namespace
+
+Shape polar_curve(const TableSpec& spec) {
+  const WrittenFormula& radius = formula(spec, "radius", "\"1 + 0.5*cos(phi)\"");
+  return Drawing(Polar{radius.place, parsed(radius, "phi")}).shape();
+}
+
+Shape parametric_curve(const TableSpec& spec) {
+  const WrittenFormula &x = formula(spec, "x", "\"2*cos(t)\""),
+                       &y = formula(spec, "y", "\"sin(t) + 0.3*cos(2*t)\"");
+  const ExactNumber end = number_or(spec, "to", "2*pi");
+  const double from = number_or(spec, "from", "0").to_double(), to = end.to_double();
+  if (!(to > from)) throw InputError(end.place(), "'to' is not larger than 'from'", "from < to");
+  return Drawing(Parametric{x.place, parsed(x, "t"), parsed(y, "t"), from, to}).shape();
+}
+
+Shape spline_curve(const TableSpec& spec) {
+  const auto found = spec.points.find("points");
+  if (found == spec.points.end() || found->second.size() < 3)
+    throw InputError(place_of(spec, "points"), "the shape 'spline' needs at least three points",
+                     "a list of points [x, y]");
+  std::vector<Vector> points;
+  for (const ExactPoint& p : found->second) points.push_back(point(p));
+  double area = 0.0;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    area += cross(points[k], points[(k + 1) % points.size()]);
+  std::vector<std::size_t> side;  // the number of the piece after each point, as it was written
+  for (std::size_t k = 0; k < points.size(); ++k) side.push_back(k);
+  if (area < 0.0) {
+    std::reverse(points.begin() + 1, points.end());
+    std::reverse(side.begin(), side.end());
+  }
+  std::vector<double> chord;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Vector d = points[(k + 1) % points.size()] - points[k];
+    chord.push_back(std::sqrt(dot(d, d)));
+    if (!(chord.back() > 0.0))
+      throw InputError(found->second[side[k]].x.place(), "the same point twice in a row",
+                       "points that differ; the curve closes by itself");
+  }
+  const std::vector<Vector> slope = slopes_at(points, chord);
+  const std::vector<std::string> names = numbered("curve", points.size());
+  Chain chain;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const std::size_t next = (k + 1) % points.size();
+    const double third = chord[k] / 3.0;
+    chain.push_back(
+        {names[side[k]], Bezier{points[k],
+                                points[next],
+                                {points[k] + third * slope[k], points[next] - third * slope[next]},
+                                3}});
+  }
+  Shape shape;
+  shape.loops.push_back(std::move(chain));
+  return shape;
+}
+
+}  // namespace carom::table::shapes

@@ -1,0 +1,273 @@
+// Billiards in Bézier curves: stages, statistics, reversal, and the circle written as a curve.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "carom/base/error.hpp"
+#include "carom/table/make.hpp"
+#include "events/flight/next_hit.hpp"
+#include "events/recorder.hpp"
+
+namespace carom::tests {
+
+using namespace events;
+
+namespace {
+
+ExactPoint at(double x, double y) { return {ExactNumber(x), ExactNumber(y)}; }
+
+Table polar(const char* radius) {
+  TableSpec spec;
+  spec.shape = "polar";
+  spec.formulas["radius"] = {radius, {}};
+  return build_table(spec);
+}
+Table parametric(const char* x, const char* y) {
+  TableSpec spec;
+  spec.shape = "parametric";
+  spec.formulas["x"] = {x, {}};
+  spec.formulas["y"] = {y, {}};
+  return build_table(spec);
+}
+Table spline(std::vector<ExactPoint> points) {
+  TableSpec spec;
+  spec.shape = "spline";
+  spec.points["points"] = std::move(points);
+  return build_table(spec);
+}
+PieceSpec bezier(std::vector<ExactPoint> points) {
+  PieceSpec piece;
+  piece.kind = PieceSpec::Kind::bezier;
+  piece.to = points.back();
+  points.pop_back();
+  piece.control = std::move(points);
+  return piece;
+}
+PieceSpec line(ExactPoint to) {
+  PieceSpec piece;
+  piece.to = to;
+  return piece;
+}
+TableSpec path_spec(ExactPoint from, std::vector<PieceSpec> pieces) {
+  TableSpec spec;
+  spec.shape = "path";
+  spec.loops.push_back({from, std::move(pieces), {}});
+  return spec;
+}
+
+/// A box with one wall of degree 5 that bends both ways, and a circle in it.
+Table wavy_box() {
+  TableSpec spec = path_spec(
+      at(0, 0), {line(at(4, 0)), bezier({at(6, 1), at(2, 1.5), at(6.5, 2), at(3, 2.5), at(4, 3)}),
+                 bezier({at(3, 3.5), at(1, 2), at(0, 3)}), line(at(0, 0))});
+  spec.obstacles.push_back(disc(at(1.5, 1.25), ExactNumber(0.5)));
+  return build_table(spec);
+}
+
+std::vector<std::pair<const char*, Table>> tables() {
+  std::vector<std::pair<const char*, Table>> all;
+  all.emplace_back("cardioid-like", polar("1 + 0.5*cos(phi)"));
+  all.emplace_back("Robnik's", parametric("cos(t) + 0.3*cos(2*t)", "sin(t) + 0.3*sin(2*t)"));
+  all.emplace_back("flower", polar("1 + 0.2*sin(5*phi)"));
+  all.emplace_back("superellipse", polar("(cos(phi)^4 + sin(phi)^4)^(-1/4)"));
+  all.emplace_back("spline",
+                   spline({at(0, 0), at(3, -1), at(4, 1), at(2, 2), at(1, 4), at(-1, 2)}));
+  all.emplace_back("wavy box", wavy_box());
+  return all;
+}
+
+struct Lengths : Observer {
+  double sum = 0.0, squares = 0.0, speed = 0.0;
+  std::uint64_t hits = 0;
+  void hit(const HitEvent& e) override {
+    ++hits;
+    sum += e.flight_time;
+    squares += e.flight_time * e.flight_time;
+    speed = std::max(speed, std::fabs(std::sqrt(dot(e.after, e.after)) - 1.0));
+  }
+};
+
+TEST(Beziers, MeanFlightIsPiAreaOverPerimeter) {
+  for (const auto& [name, table] : tables()) {
+    World world(table);
+    Lengths seen;
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    // Starts by the invariant measure: uniform in the wall's length and the sine of the angle.
+    std::vector<double> ends{0.0};
+    for (const Wall& wall : table.walls) ends.push_back(ends.back() + geometry::length(wall.curve));
+    constexpr int orbits = 3000;
+    for (int i = 0; i < orbits; ++i) {
+      const double s = unit(random) * ends.back();
+      const auto next = std::upper_bound(ends.begin(), ends.end() - 1, s);
+      const int wall = static_cast<int>(next - ends.begin()) - 1;
+      State state;
+      state.wall = wall;
+      state.u = geometry::parameter_at_length(table.wall(wall).curve, s - *(next - 1));
+      state.position = geometry::point_at(table.wall(wall).curve, state.u);
+      const Vector n = geometry::normal_at(table.wall(wall).curve, state.u);
+      const double sine = 2.0 * unit(random) - 1.0;
+      const Vector v = std::sqrt(1.0 - sine * sine) * n - sine * left(n);
+      state.velocity = (1.0 / std::sqrt(dot(v, v))) * v;
+      world.clear();
+      world.limit_hits(20);
+      world.add(particle(), state);
+      world.run_until(1e300, seen);
+      ASSERT_EQ(world.fate(0), Fate::capped) << name << ": " << world.report(0);
+    }
+    const double count = static_cast<double>(seen.hits), mean = seen.sum / count;
+    // Hits of one orbit are not independent: as if there were 20 times fewer.
+    const double error =
+        std::sqrt((seen.squares / count - mean * mean) / static_cast<double>(orbits));
+    EXPECT_NEAR(mean, measure(table).mean_flight, 4.0 * error) << name;
+    EXPECT_LT(seen.speed, 1e-14) << name;
+    const DecisionCounts& counts = world.decisions();
+    EXPECT_GT(static_cast<double>(counts.filter), 0.999 * static_cast<double>(counts.exact))
+        << name;
+    std::printf("%-14s %3zu walls, mean flight %.5f of %.5f, exact %llu of %llu\n", name,
+                table.walls.size(), mean, measure(table).mean_flight,
+                static_cast<unsigned long long>(counts.exact),
+                static_cast<unsigned long long>(counts.filter + counts.exact));
+  }
+}
+
+TEST(Beziers, StagesGiveTheSameBits) {
+  for (const auto& [name, table] : tables()) {
+    HitFinder filter(table), exact(table, {1e300}), inflated(table, {0x1p20}),
+        without_grid(table, {1.0, 1 << 30});
+    std::mt19937_64 random(6);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (int i = 0; i < 150; ++i) {
+      Flight f;
+      const int wall = static_cast<int>(unit(random) * static_cast<double>(table.walls.size()));
+      const geometry::Curve& curve = table.wall(wall).curve;
+      const double u = std::max(0x1p-53, unit(random) * geometry::last_parameter(curve));
+      const Vector n = geometry::normal_at(curve, u);
+      double sine = 2.0 * unit(random) - 1.0;
+      if (i % 5 == 0) sine = std::copysign(1.0 - std::ldexp(unit(random), -i % 40), sine);
+      f.velocity = std::sqrt((1.0 - sine) * (1.0 + sine)) * n - sine * left(n);
+      if (i % 7 == 0) {  // at a joint
+        const int other = static_cast<int>(unit(random) * static_cast<double>(table.walls.size()));
+        const Vector to = geometry::start_point(table.wall(other).curve);
+        const Vector d = to - geometry::point_at(curve, u);
+        if (dot(d, n) > 0.0) f.velocity = (1.0 / std::sqrt(dot(d, d))) * d;
+      }
+      f.square_speed = dot(f.velocity, f.velocity);
+      filter.pieces().begin_on_wall(f, wall, u, geometry::point_at(curve, u), f.velocity);
+      DecisionCounts counts;
+      if (filter.pieces().inward(wall, u, f.velocity, n, counts) != Sign::positive) continue;
+      const Ahead first = filter.next(f, counts);
+      for (HitFinder* other : {&exact, &inflated, &without_grid}) {
+        const Ahead again = other->next(f, counts);
+        EXPECT_EQ(first.kind, again.kind) << name << " " << i;
+        EXPECT_EQ(first.piece, again.piece) << name << " " << i;
+        EXPECT_EQ(first.kappa, again.kappa) << name << " " << i;
+        EXPECT_EQ(first.duration, again.duration) << name << " " << i;
+        if (first.kind == Ahead::Kind::wall) {
+          EXPECT_EQ(first.u, again.u) << name << " " << i;
+        }
+      }
+    }
+  }
+}
+
+TEST(Beziers, ReversedOrbitsReturn) {
+  for (const auto& [name, table] : tables()) {
+    World world(table);
+    Recorder there;
+    const State from = start({0.3, 0.6}, {0.6, 0.8});
+    world.add(particle(), from);
+    world.limit_hits(6);
+    world.run_until(1e300, there);
+    ASSERT_EQ(there.hits.size(), 6u) << name;
+    World back(table);
+    const HitEvent& last = there.hits.back();
+    const State turn = world.state(0);
+    back.add(particle(),
+             start(there.hits[4].position + 0.5 * last.flight_time * last.before, -last.before));
+    Recorder again;
+    back.limit_hits(5);
+    back.run_until(1e300, again);
+    for (std::size_t i = 0; i < 5; ++i) {
+      const Vector d = again.hits[i].position - there.hits[4 - i].position;
+      EXPECT_LT(std::sqrt(dot(d, d)), 1e-9) << name << " " << i;
+    }
+    EXPECT_EQ(turn.wall, last.wall);
+  }
+}
+
+/// Equal but for roundings, which grow by `growth` a hit at most.
+void expect_same_orbits(const Table& curve, const Table& conic, double growth) {
+  EXPECT_GT(curve.walls.size(), 4u);
+  EXPECT_LE(curve.curve_distance, 1e-14);
+  Recorder a, b;
+  World one(curve), other(conic);
+  for (auto [world, seen] : {std::pair{&one, &a}, std::pair{&other, &b}}) {
+    world->add(particle(), start({0.3, 0.1}, {0.6, 0.8}));
+    world->limit_hits(200);
+    world->run_until(1e300, *seen);
+  }
+  for (std::size_t i = 0; i < 200; ++i) {
+    const Vector d = a.hits[i].position - b.hits[i].position;
+    EXPECT_LT(std::sqrt(dot(d, d)), growth * static_cast<double>(i + 1)) << i;
+  }
+  EXPECT_NEAR(measure(curve).perimeter, measure(conic).perimeter, 1e-12);
+  EXPECT_NEAR(measure(curve).area, measure(conic).area, 1e-12);
+}
+
+TEST(Beziers, ConicsWrittenAsCurvesHaveTheirOrbits) {
+  expect_same_orbits(polar("1 + 0*phi"), build_table(*carom::circle(1).spec), 1e-12);
+  expect_same_orbits(parametric("2*cos(t)", "sin(t)"), build_table(*carom::ellipse(2, 1).spec),
+                     1e-11);
+  // The other way round it is the same table.
+  expect_same_orbits(parametric("2*cos(t)", "-sin(t)"), build_table(*carom::ellipse(2, 1).spec),
+                     1e-11);
+}
+
+std::string fault_of(const TableSpec& spec) {
+  try {
+    build_table(spec);
+  } catch (const InputError& e) {
+    return e.problem();
+  }
+  return "";
+}
+
+TEST(Beziers, CurvesThatBoundNoRegionAreNamed) {
+  const auto mentions = [](const std::string& text, const char* word) {
+    EXPECT_NE(text.find(word), std::string::npos) << text;
+  };
+  // A loop within one piece; two pieces that cross; a cusp within a piece; one at a joint.
+  mentions(fault_of(path_spec(at(0, 0), {bezier({at(6, 4), at(-4, 4), at(2, 0)}), line(at(0, 0))})),
+           "crosses itself");
+  mentions(fault_of(path_spec(at(0, 0), {bezier({at(1, 2), at(2, -2), at(3, 0)}), line(at(1.5, 3)),
+                                         line(at(1, -2)), line(at(0, 0))})),
+           "cross");
+  mentions(fault_of(path_spec(at(0, 0), {bezier({at(2, 2), at(0, 2), at(2, 0)}), line(at(1, -1)),
+                                         line(at(0, 0))})),
+           "cusp");
+  mentions(fault_of(path_spec(at(0, 0),
+                              {bezier({at(1, 0), at(2, 1)}), bezier({at(1.5, 0.5), at(0, 0)})})),
+           "cusp");
+  EXPECT_EQ(fault_of(path_spec(at(0, 0), {bezier({at(4, 4), at(-4, 4), at(0, 0)})})), "");
+}
+
+TEST(Beziers, WildFormulasAreNamed) {
+  const auto fault = [](const char* radius) {
+    TableSpec spec;
+    spec.shape = "polar";
+    spec.formulas["radius"] = {radius, {}};
+    return fault_of(spec);
+  };
+  EXPECT_NE(fault("cos(phi)"), "");           // vanishes
+  EXPECT_NE(fault("1 + 0.1*phi"), "");        // does not close
+  EXPECT_NE(fault("1 + abs(sin(phi))"), "");  // has a corner
+  EXPECT_NE(fault("1/(phi - 1)"), "");
+  EXPECT_NE(fault("2 + sqrt(phi)"), "");
+  EXPECT_EQ(fault("2 + sin(phi)"), "");
+}
+
+}  // namespace
+}  // namespace carom::tests

@@ -1,0 +1,199 @@
+// Straight flights against Bézier curves: the filter, the exact stage, and roots found by signs in
+// 500 digits, which share nothing with either.
+#include <gtest/gtest.h>
+
+#include <boost/multiprecision/mpfr.hpp>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "carom/geometry/bezier_line.hpp"
+#include "carom/geometry/exact_flight.hpp"
+#include "carom/geometry/region.hpp"
+
+namespace carom::geometry {
+namespace {
+
+using Real = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<500>,
+                                           boost::multiprecision::et_off>;
+
+struct Dice {
+  std::mt19937_64 random;
+  double unit() { return std::uniform_real_distribution<double>(0.0, 1.0)(random); }
+  int whole(int a, int b) { return std::uniform_int_distribution<int>(a, b)(random); }
+  bool coin() { return whole(0, 1) == 0; }
+  Vector point(double size) { return {size * (2.0 * unit() - 1.0), size * (2.0 * unit() - 1.0)}; }
+};
+
+Bezier random_curve(Dice& dice, double size) {
+  for (;;) {
+    Bezier b{dice.point(size), dice.point(size), {}, dice.whole(2, 5)};
+    for (int i = 1; i < b.degree; ++i)
+      b.inner[static_cast<std::size_t>(i - 1)] =
+          dice.whole(0, 3) == 0 ? b.from + 0.3 * dice.point(size) : dice.point(size);
+    try {
+      frame_of(b);
+      return b;
+    } catch (const std::invalid_argument&) {
+    }
+  }
+}
+
+/// The point at u by the definition.
+BasicVector<Real> definition(const Bezier& b, const Real& u) {
+  BasicVector<Real> sum{0, 0};
+  Real binomial = 1;
+  for (int i = 0; i <= b.degree; ++i) {
+    const Real weight = binomial * pow(u, i) * pow(1 - u, b.degree - i);
+    sum = sum + weight * BasicVector<Real>{b.control(i).x, b.control(i).y};
+    binomial = binomial * (b.degree - i) / (i + 1);
+  }
+  return sum;
+}
+
+struct Flight {
+  Vector start, v;
+  double on = -1.0;
+};
+
+/// Adversarial: along tangents, by a hair beside them, at ends, from places on the curve.
+Flight random_flight(Dice& dice, const CurveFrame& f, double size) {
+  Flight flight{dice.point(1.5 * size), dice.point(1.0), -1.0};
+  const int kind = dice.whole(0, 5);
+  if (dice.whole(0, 2) == 0) {
+    flight.on = dice.whole(0, 9) == 0 ? std::ldexp(1.0, -dice.whole(1, 50)) : dice.unit();
+    if (dice.whole(0, 9) == 0) flight.on = 1.0 - 0.5 * flight.on;
+    flight.start = point_at(f, flight.on);
+  }
+  const double at = dice.unit();
+  if (kind == 0) flight.v = point_at(f, at) - flight.start;
+  if (kind == 1) flight.v = point_at(f, dice.coin() ? 0.0 : 1.0) - flight.start;
+  if (kind == 2) {  // nearly along a tangent
+    const double off = std::ldexp(dice.unit(), -dice.whole(0, 60));
+    const Vector t = tangent_at(f, at);
+    if (flight.on < 0.0)
+      flight.start = point_at(f, at) - (2.0 * size * dice.unit()) * t + (off * size) * left(t);
+    flight.v =
+        flight.on < 0.0 ? t : tangent_at(f, flight.on) + off * left(tangent_at(f, flight.on));
+  }
+  if (flight.on >= 0.0 && cross(direction_at(f, flight.on), flight.v) < 0.0) flight.v = -flight.v;
+  return flight;
+}
+
+/// The first of the roots of g = v x (x(u) - start) at which the line leaves, by bisection.
+struct Reference {
+  bool found = false;
+  double u = 0.0;
+};
+Reference reference(const Bezier& b, const Flight& f) {
+  const BasicVector<Real> start =
+      f.on < 0.0 ? BasicVector<Real>{f.start.x, f.start.y} : definition(b, f.on);
+  const BasicVector<Real> v{f.v.x, f.v.y};
+  // Standing on the curve g / (u - on), which rises where g does after the start, falls before it.
+  const auto g = [&](const Real& u) {
+    const Real value = cross(v, definition(b, u) - start);
+    return f.on < 0.0 ? value : Real(value / (u - Real(f.on)));
+  };
+  const auto slope = [&](const Real& u) {
+    const Real h("1e-150");
+    return Real(g(u + h) - g(u - h));
+  };
+  const auto root = [](const auto& function, Real low, Real high) {
+    const bool rises = function(low) < 0;
+    for (int i = 0; i < 300; ++i) {
+      const Real middle = (low + high) / 2;
+      ((function(middle) < 0) == rises ? low : high) = middle;
+    }
+    return low;
+  };
+  // Between the places where g turns it is monotone, so that no pair of roots is missed.
+  std::vector<Real> nodes{0};
+  constexpr int mesh = 50;
+  for (int k = 1; k <= mesh; ++k) {
+    // On no simple fraction, where curves with few bits turn or stand.
+    const Real from = (Real(k - 1) + Real("0.0012345")) / mesh,
+               to = (Real(k) + Real("0.0012345")) / mesh;
+    if (slope(from) * slope(to) < 0) nodes.push_back(root(slope, from, to));
+    if (to < 1) nodes.push_back(to);
+  }
+  nodes.push_back(1);
+  Reference first;
+  Real nearest = 0;
+  for (std::size_t k = 1; k < nodes.size(); ++k) {
+    const Real before = g(nodes[k - 1]), value = g(nodes[k]);
+    if (before * value < 0) {
+      const bool rises = before < 0;
+      const Real low = root(g, nodes[k - 1], nodes[k]);
+      const Real along = dot(v, definition(b, low) - start);
+      const bool leaves = rises == (f.on < 0.0 || low > Real(f.on));
+      if (leaves && along > 0 && (!first.found || along < nearest)) {
+        first = {true, static_cast<double>(low)};
+        nearest = along;
+      }
+    }
+  }
+  return first;
+}
+
+struct Tally {
+  long cases = 0, decided = 0, exits = 0;
+};
+
+Tally compare(unsigned seed, int curves, int flights, double size, bool with_reference) {
+  Dice dice{std::mt19937_64(seed)};
+  Tally tally;
+  for (int i = 0; i < curves; ++i) {
+    const Bezier curve = random_curve(dice, size);
+    const PreparedCurve prepared{Curve(curve)};
+    const CurveFrame& frame = prepared.parametrisation;
+    const ExactBoundary boundary({{curve, {}, -1, false}}, {}, {});
+    for (int k = 0; k < flights; ++k) {
+      const Flight f = random_flight(dice, frame, size);
+      if (f.on >= 0.0 && boundary.inward(0, f.on, f.v) != Sign::positive) continue;
+      const double delta = f.on < 0.0 ? 0.0 : prepared.point_error;
+      const FlightScale scale{delta, std::fabs(f.v.x) + std::fabs(f.v.y), 0.0, 1.0};
+      const ExactFlight exact(boundary, f.on < 0.0 ? -1 : 0, f.on, f.start, f.v, 0.0);
+      if (f.on < 0.0 && (std::fabs(cross(f.v, curve.from - f.start)) < 1e-12 * size ||
+                         std::fabs(cross(f.v, curve.to - f.start)) < 1e-12 * size))
+        continue;  // the driver asks for joints first
+      ++tally.cases;
+      const LineExit exit = first_exit(*frame.bezier, f.start, f.v, scale, f.on);
+      const ExactFlight::First first = exact.first({0}, {}, -1, f.on < 0.0 ? -1 : 0, -1);
+      const bool leaves = first.kind == ExactFlight::First::Kind::exit;
+      if (exit.leaves != Sign::undecided) {
+        ++tally.decided;
+        EXPECT_EQ(exit.leaves == Sign::positive, leaves) << seed << " " << i << " " << k;
+        if (leaves) {
+          ++tally.exits;
+          EXPECT_NEAR(exit.u, first.u, 1e-6) << seed << " " << i << " " << k;
+          const double along = dot(f.v, f.v) / first.kappa;
+          EXPECT_LE(std::fabs(exit.along - along), exit.error + 1e-15 * along)
+              << seed << " " << i << " " << k;
+        }
+      }
+      if (!with_reference) continue;
+      const Reference other = reference(curve, f);
+      EXPECT_EQ(other.found, leaves) << seed << " " << i << " " << k;
+      if (other.found && leaves) {
+        EXPECT_NEAR(other.u, first.u, 1e-12) << seed << " " << i << " " << k;
+      }
+    }
+  }
+  return tally;
+}
+
+TEST(BezierFlights, FilterAndExactStageAgree) {
+  for (const double size : {1.0, 1e-6, 1e6}) {
+    const Tally t = compare(3, 40, 100, size, false);
+    EXPECT_GT(t.exits, t.cases / 10);
+    EXPECT_GT(t.decided, t.cases * 3 / 4);  // of adversarial flights
+  }
+}
+
+TEST(BezierFlights, BothAgreeWithBisectionInFiveHundredDigits) {
+  const Tally t = compare(4, 12, 25, 1.0, true);
+  EXPECT_GT(t.exits, 30);
+}
+
+}  // namespace
+}  // namespace carom::geometry
