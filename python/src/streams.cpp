@@ -271,8 +271,8 @@ void fly(const System& system, int threads, std::optional<InstructionSet> lanes,
                                 static_cast<std::uint64_t>(together));
   using Output = typename Flyer<Rows>::Output;
   const typename Output::Sink sink = [&](const typename Output::Block& blocks) {
-    for (const auto& [rows, order] : blocks)
-      stream.push(order.size(), [&](std::size_t i) { return rows[order[i]]; });
+    for (const Block<typename Rows::Row>& block : blocks)
+      stream.push(block.order.size(), [&](std::size_t i) { return block.rows[block.order[i]]; });
   };
   Output output(sink, 4 * static_cast<std::uint64_t>(plan.threads));
   engines::run_blocks(
