@@ -15,7 +15,7 @@ std::string message(const Place& place, const std::string& problem, const std::s
   if (!text.empty()) text += ": ";
   text += problem;
   // A long list of names is of no use beside the right one.
-  constexpr std::size_t long_list = 160;
+  constexpr std::size_t long_list = 100;
   const bool shown = !expected.empty() && (nearest.empty() || expected.size() < long_list);
   if (!shown && nearest.empty()) return text;
   text += " (";

@@ -236,7 +236,7 @@ void define_commands(CLI::App& app, Options& o) {
       "Examples:\n"
       "  carom animate lorentz-triangular -o lorentz.gif\n"
       "  carom animate wigner -o wigner.mp4\n"
-      "  carom run mushroom --closed --collisions 50 -o orbit.h5 && carom animate orbit.h5\n"
+      "  carom animate orbit.h5 -o orbit.gif     an archive of carom run\n"
       "\n"
       "Without -o the film is NAME.gif in this folder. A run is shown until its hundredth hit, a "
       "system for twenty mean flights.\n"

@@ -22,7 +22,7 @@ class Completions {
   void commands(const std::vector<CommandRow>& table) {
     for (const CommandRow& command : table)
       if (!command.name.empty()) word(command.name, command.text);
-    word("help", "Explains a command");
+    word("help", "Explain a command");
   }
   void options(const CommandRow& command) {
     for (const OptionRow& option : command.options)

@@ -36,7 +36,11 @@ std::vector<std::string> listed(const std::string& help, const std::string& titl
 
 std::vector<std::string> commands() {
   const Shell shell;
-  return listed(shell("$carom --help").out, "Subcommands");
+  const std::string help = shell("$carom --help").out;
+  std::vector<std::string> all;
+  for (const char* group : {"Compute", "Look", "Data and checks"})
+    for (const std::string& command : listed(help, group)) all.push_back(command);
+  return all;
 }
 
 // "-o,--output": both.
@@ -114,7 +118,7 @@ TEST(Completion, OfBashOffersWhatFits) {
   shell("mkdir sub; touch my.toml orbit.h5 note.txt 'two words.toml'");
   const std::pair<const char*, const char*> cases[] = {
       {"carom es", "escape"},
-      {"carom s", "section schemes systems"},
+      {"carom s", "section systems schemes"},
       {"carom --v", "--version"},
       {"carom help di", "diffusion"},
       {"carom escape mu", "mushroom"},

@@ -218,7 +218,7 @@ TEST(Reports, FitTheScreen) {
     expect_fit("table " + name, 26);
   }
   for (const char* gas : {"lorentz-triangular", "lorentz-square", "soft-lorentz"})
-    expect_fit(std::string("diffusion ") + gas + " --trajectories 200 --t-max 20", 38);
+    expect_fit(std::string("diffusion ") + gas + " --trajectories 200 --t-max 20", 39);
   expect_fit("section ellipse-magnetic --points 20", 22);
   expect_fit("orbit three-disc", 24);
   expect_fit("orbit ellipse-magnetic --hits 3 --starts 500 --tries 50", 24);
@@ -229,7 +229,7 @@ TEST(Reports, FitTheScreen) {
   expect_fit("escape stadium --splitting lin:0:50:11 --population 200", 40);
   expect_fit("run magnetic-square --closed --collisions 1000 --set particles.count=40", 30);
   expect_fit("escape stadium --trajectories 3e6 --t-max 5", 34);
-  expect_fit("diffusion stadium --trajectories 40 --t-max 3", 38);
+  expect_fit("diffusion stadium --trajectories 40 --t-max 3", 39);
   expect_fit("schemes", 80);
   expect_fit("validate --scale 0.001", 300);
 }

@@ -12,6 +12,7 @@
 #include "carom/analyses/compare/archive.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
+#include "cli/reports/grounds.hpp"
 
 namespace carom::cli {
 
@@ -237,6 +238,7 @@ std::string compare_text(const System& system, const Comparison& result, const s
   if (verbose)
     for (const ComparedScheme& scheme : result.schemes) text += runs_table(scheme);
   if (!result.complete) text += "interrupted: the schemes that were finished\n";
+  text += grounds_text("state (reference), orders, way back, areas", "other starts, later times");
   if (!verbose) text += "--verbose prints every step";
   text += archive.empty() ? (verbose ? "-o FILE.h5 stores all\n" : ", -o FILE.h5 stores them\n")
                           : fmt::format("{}archive: {}\n", verbose ? "" : "\n", archive);

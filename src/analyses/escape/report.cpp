@@ -16,6 +16,7 @@
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
+#include "cli/reports/grounds.hpp"
 #include "files/describe/json_out.hpp"
 
 namespace carom::cli {
@@ -172,6 +173,7 @@ std::string result_text(const System& system, const EscapeResult& result,
   if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
   text += "\n" + work_text(system, counts.collisions, counts.contacts, result);
   text += verbose_text(system, result, context, result.effort);
+  text += grounds_text(system, result.steps, true);
   if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
   return text;
 }

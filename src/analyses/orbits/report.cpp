@@ -10,6 +10,7 @@
 
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
+#include "cli/reports/grounds.hpp"
 
 namespace carom::cli {
 
@@ -226,6 +227,10 @@ std::string orbit_text(const System& system, const OrbitSearchResult& result,
       fmt::format("{} of the table; {:.3g} s on {}\n",
                   counted(static_cast<std::uint64_t>(result.symmetries), "symmetry"),
                   result.seconds, counted(static_cast<std::uint64_t>(result.threads), "thread"));
+  const bool proven = !context.proofs.orbits.empty(), all_words = result.recurrences == 0;
+  text += grounds_text(
+      proven ? "existence, in exact arithmetic" : "orbits close, no wall is in the way",
+      all_words ? "longer orbits" : "whether orbits are missing");
   if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
   return text;
 }

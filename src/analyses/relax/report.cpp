@@ -11,6 +11,7 @@
 #include "carom/analyses/relax/archive.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
+#include "cli/reports/grounds.hpp"
 
 namespace carom::cli {
 
@@ -128,6 +129,7 @@ std::string relax_text(const System& system, const RelaxResult& result, const st
   }
   text += fmt::format("\n{} in {:.3g} s on {}\n", counted(result.starts, "start"), result.seconds,
                       counted(static_cast<std::uint64_t>(result.threads), "thread"));
+  text += grounds_text("forces vanish, signs of curvatures", "other equilibria (--starts)");
   if (!output.empty()) text += fmt::format("archive: {}\n", output);
   return text;
 }

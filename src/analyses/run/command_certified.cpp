@@ -126,6 +126,7 @@ std::string certified_text(const System& system, const CertifiedEnd& end, const 
                       static_cast<long>(effort.tangent_bits),
                       counted(static_cast<std::uint64_t>(effort.attempts), "attempt"));
   text += fmt::format("  computed in   {:.3g} s\n", seconds);
+  text += "  checked       every printed digit, by enclosures\n";
   return output.empty() ? text : text + fmt::format("  archive       {}\n", output);
 }
 

@@ -135,6 +135,24 @@ std::string state_error_text(const System& system, const StateError& error, doub
   return text;
 }
 
+/// What was compared with another run, and what was not.
+std::string checks_text(const SingleRunResult& result) {
+  const RunEnd& first = result.particles.front();
+  const double end = first.progress.end.value();
+  std::string checked = "energy", left = "rounding along the orbit";
+  if (first.trust.known) {
+    checked = "walls by exact signs, the true orbit as far as it is trusted";
+    left = first.trust.time.value() < end ? "what follows (--precision certified)" : "";
+  } else if (result.state_error) {
+    checked = "energy, resolution of the forces, half the step";
+    left = result.state_error->until < end ? "later times" : "";
+  } else if (!result.no_state_error.empty()) {
+    left = "half the step";
+  }
+  if (!left.empty()) checked += "; not checked: " + left;
+  return folded("  checked       " + checked, std::string(16, ' ')) + "\n";
+}
+
 /// Why the energy cannot be trusted; "" if it is kept.
 std::string energy_note(const System& system, const SingleRunResult& result) {
   EnergyError all;
@@ -214,6 +232,7 @@ std::string run_text(const System& system, const SingleRunResult& result, const 
     text += folded("  state error   none: " + result.no_state_error, "                ") + "\n";
   }
   text += fmt::format("  computed in   {}\n", short_duration(result.seconds));
+  text += checks_text(result);
   if (verbose) text += fmt::format("  {}\n", decisions_text(result.decisions));
   if (!output.empty()) text += fmt::format("  archive       {}\n", output);
   return text;

@@ -10,6 +10,7 @@
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
+#include "cli/reports/grounds.hpp"
 #include "files/describe/json_out.hpp"
 #include "results/describe_ends.hpp"
 
@@ -92,6 +93,7 @@ std::string section_text(const System& system, const SectionResult& result, cons
                       pace_text(system, {result.collisions}, result.steps, result.seconds));
   if (verbose)
     text += fmt::format("{}\ndigest {:016x}\n", decisions_text(result.decisions), result.digest);
+  text += grounds_text(system, result.steps, false);
   return output.empty() ? text : text + fmt::format("archive: {}\n", output);
 }
 

@@ -17,6 +17,7 @@
 #include "cli/common.hpp"
 #include "cli/number_list.hpp"
 #include "cli/reports/aligned.hpp"
+#include "cli/reports/grounds.hpp"
 #include "files/progress.hpp"
 
 namespace carom::cli {
@@ -225,6 +226,7 @@ std::string splitting_text(const System& system, const SplittingResult& result, 
       "{:.0f} % of the kicked copies kept their way\n",
       counted(result.collisions, "collision"), result.seconds,
       counted(static_cast<std::uint64_t>(result.threads), "thread"), 100.0 * rejected);
+  text += grounds_text("three kicks, scatter (docs/physics/rare-events.md)", "rounding");
   if (verbose) text += fmt::format("digest {:016x}\n", result.digest);
   return text;
 }

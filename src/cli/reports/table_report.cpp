@@ -105,6 +105,7 @@ std::string table_text(const System& system, const TableMeasure& measured,
       text +=
           fmt::format("  wall '{}' mirrors a share {:.6g} of the hits; the others are diffuse\n",
                       wall.name, wall.specularity);
+  text += folded("  checked: that loops close, cross nowhere and lie apart, by exact signs") + "\n";
   if (!output.empty()) text += fmt::format("  drawing: {}\n", output);
   return text;
 }
