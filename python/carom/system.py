@@ -415,6 +415,25 @@ def discs(centers, radius=None, radii=None) -> System:
     return System(text, "discs")._checked()
 
 
+@_of_keywords
+def polar(radius) -> System:
+    """A wall r = radius(φ) about the origin (length), a formula of `phi`: "1 + 0.3*cos(3*phi)"; walls curve_1,
+    curve_2, … from the angle 0."""
+    return _shape("polar", radius=radius)
+
+
+@_of_keywords
+def parametric(x, y, start=None, end=None) -> System:
+    """A wall x(t), y(t) (lengths), formulas of `t` from start (0) to end (2π): "2*cos(t)", "sin(t)"."""
+    return _shape("parametric", x=x, y=y, **{"from": start, "to": end})
+
+
+@_of_keywords
+def spline(points) -> System:
+    """The smooth wall through the points, (points, 2), lengths: a periodic cubic spline."""
+    return _shape("spline", points=points)
+
+
 def path(*loops) -> System:
     """Own loops of pieces, as [[table.loop]] of a system file describes them."""
     text = toml.section("table", {"shape": "path"})

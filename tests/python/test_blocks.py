@@ -28,6 +28,9 @@ def same(rows, others):
     ("soft-lorentz", {"t_max": 5}),
     (DISCS, {"t_max": 20}),
     (carom.rectangle(), {"position": ("1/2", "1/2"), "velocity": (1, 1), "collisions": 8}),  # into corners
+    (carom.polar("1 + 0.3*cos(3*phi)"), {"collisions": 1500}),
+    (carom.circle().with_(table={"shape": "circle", "radius": 1, "wall": [{"law": "diffuse"}]}),
+     {"collisions": 2000, "trajectory": 3}),
 ])  # fmt: skip
 def test_hits_are_those_of_the_run(name, keywords):
     run = carom.run(name, **keywords)

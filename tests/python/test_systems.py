@@ -37,6 +37,9 @@ def test_a_table_is_built_with_holes_and_obstacles():
         lambda: carom.mushroom(1, 0.5, 1),
         lambda: carom.lemon(1, 1),
         lambda: carom.discs([(0, 0), (6, 0)], radius=1),
+        lambda: carom.polar("1 + 0.3*cos(3*phi)"),
+        lambda: carom.parametric("2*cos(t)", "sin(t)"),
+        lambda: carom.spline([(0, 0), (3, -1), (4, 1), (2, 2)]),
     ],
 )
 def test_every_shape_has_a_length(make):
