@@ -74,15 +74,15 @@ void FreeFlights::begin_on_wall(Body& b, int wall, double u) const {
 
 /// By Lambert's law the sine of the angle to the normal is uniform (docs/physics/scattering.md).
 /// Where the velocity is not one into the domain, as at a corner, the next two numbers are tried.
-void FreeFlights::scatter(int index, const Body& b, const PieceTable::Landing& landing,
-                          Vector& after) {
+Vector FreeFlights::scattered(int index, const Body& b, const PieceTable::Landing& landing,
+                              Vector mirrored) {
   const double specularity = pieces().table.walls[base::at(landing.wall)].specularity;
-  if (!(specularity < 1.0)) return;
+  if (!(specularity < 1.0)) return mirrored;
   const int number = scattering_.numbers.empty() ? index : scattering_.numbers[base::at(index)];
   RandomStream::Block words;
   RandomStream::block(scattering_.seed, Purpose::scattering, scattering_.trajectory,
                       static_cast<std::uint64_t>(number), b.hits, words);
-  if (RandomStream::uniform(words[0]) < specularity) return;
+  if (RandomStream::uniform(words[0]) < specularity) return mirrored;
   const Vector inward =
       (1.0 / std::sqrt(dot(landing.at.normal, landing.at.normal))) * landing.at.normal;
   for (std::size_t i = 1; i < words.size(); ++i) {
@@ -90,11 +90,12 @@ void FreeFlights::scatter(int index, const Body& b, const PieceTable::Landing& l
     const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
     const Vector way = sine * geometry::right(inward) + cosine * inward;
     const Vector velocity = b.particle.speed * way;
-    after = (1.0 + geometry::step_to_energy_shell(velocity, b.shell)) * velocity;
+    const Vector after = (1.0 + geometry::step_to_energy_shell(velocity, b.shell)) * velocity;
     if (pieces().inward(landing.wall, *landing.curve, landing.at.u, after, landing.at.normal,
                         counts_) == Sign::positive)
-      return;
+      return after;
   }
+  return mirrored;
 }
 
 /// The flight ends on the edge of a support.

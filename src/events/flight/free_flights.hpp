@@ -61,8 +61,8 @@ class FreeFlights {
  private:
   void predict(int index, Body& b);
   void schedule(int index, const Body& b);
-  void scatter(int index, const Body& b, const PieceTable::Landing& landing,
-               geometry::Vector& after);
+  geometry::Vector scattered(int index, const Body& b, const PieceTable::Landing& landing,
+                             geometry::Vector mirrored);
   static void put_on_edge(Body& b, Time now, const PieceTable::Landing& landing);
   bool reflect(int index, Body& b, Time now, Observer& observer,
                const PieceTable::Landing& landing);
@@ -143,8 +143,10 @@ class FreeFlights {
   } else {
     after = geometry::reflected(before, normal, landing.at.factor, step);
   }
-  if (scattering_.any) [[unlikely]]
-    scatter(index, b, landing, after);
+  if (scattering_.any) [[unlikely]] {
+    const PieceTable::Landing there = landing;  // a copy, or the landing would live in memory
+    after = scattered(index, b, there, after);
+  }
   Sign inward = pieces().inward(landing.wall, *landing.curve, landing.at.u, after, normal, counts_);
   if (inward == Sign::negative && reflections == 1) {
     // A grazing rounding: reflecting once more turns it back.

@@ -156,6 +156,22 @@ inline Sign larmor_through_ellipse(const Meeting& m, Crossing& c) {
   return m.table.first_exit(m.flight, m.piece, m.origin, m.origin.scale.inflation, c);
 }
 
+// By value: an origin or a crossing whose address is given away lives in memory, and all walls wait
+// for it.
+[[gnu::noinline]] std::pair<Sign, Crossing> bezier_crossing(const PieceTable& table,
+                                                            const Flight& flight, int piece,
+                                                            Origin origin) {
+  std::pair<Sign, Crossing> found;
+  found.first = table.bezier_exit(flight, piece, origin, origin.scale.inflation, found.second);
+  return found;
+}
+
+inline Sign line_through_bezier(const Meeting& m, Crossing& c) {
+  const std::pair<Sign, Crossing> found = bezier_crossing(m.table, m.flight, m.piece, m.origin);
+  c = found.second;
+  return found.first;
+}
+
 template <bool larmor>
 [[gnu::always_inline]] inline Sign leaves_through(const Meeting& m, Crossing& c) {
   const bool segment = m.curve.kind == CurveKind::segment;
@@ -164,10 +180,9 @@ template <bool larmor>
            : m.curve.kind == CurveKind::ellipse ? larmor_through_ellipse(m, c)
                                                 : larmor_through_circle(m, c);
   else
-    return segment ? line_through_segment(m, c)
-           : m.curve.kind == CurveKind::bezier
-               ? m.table.bezier_exit(m.flight, m.piece, m.origin, m.origin.scale.inflation, c)
-               : line_through_conic(m, c);
+    return segment                             ? line_through_segment(m, c)
+           : m.curve.kind == CurveKind::bezier ? line_through_bezier(m, c)
+                                               : line_through_conic(m, c);
 }
 
 /// Fills in what two crossings are compared by: kappa, which is kept as a quotient without field,
