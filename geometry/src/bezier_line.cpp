@@ -139,7 +139,9 @@ bool Line::add(const Polynomial& p, double from, double to, bool rises) {
     if (starts && ends) break;
     if (!(width < 1.0)) return false;
   }
+  // Along a wall that is grazed the place is hidden by rounding: the exact stage gives it.
   const double spread = std::fmax(u - low, high - u);
+  if (spread > 0x1p-24) return false;
   double along = value(along_, u);
   double error = error_ + along_slope_ * spread;
   if (stands()) {

@@ -18,6 +18,8 @@ using geometry::Bezier;
 using geometry::Vector;
 
 constexpr double two_pi = 6.283185307179586;
+/// The declared angle pi/1 where pieces of one curve join: rounding turns their tangents.
+constexpr int smooth = 1;
 
 /// A place on a curve with its first two derivatives.
 struct Jet {
@@ -114,7 +116,8 @@ class Drawing {
     Shape shape;
     const std::vector<std::string> names = numbered("curve", pieces_.size());
     Chain chain;
-    for (std::size_t k = 0; k < pieces_.size(); ++k) chain.push_back({names[k], pieces_[k]});
+    for (std::size_t k = 0; k < pieces_.size(); ++k)
+      chain.push_back({names[k], pieces_[k], smooth});
     shape.loops.push_back(std::move(chain));
     shape.curve_distance = distance_;
     return shape;
@@ -286,11 +289,12 @@ Shape spline_curve(const TableSpec& spec) {
   for (std::size_t k = 0; k < points.size(); ++k) {
     const std::size_t next = (k + 1) % points.size();
     const double third = chord[k] / 3.0;
-    chain.push_back(
-        {names[side[k]], Bezier{points[k],
-                                points[next],
-                                {points[k] + third * slope[k], points[next] - third * slope[next]},
-                                3}});
+    chain.push_back({names[side[k]],
+                     Bezier{points[k],
+                            points[next],
+                            {points[k] + third * slope[k], points[next] - third * slope[next]},
+                            3},
+                     smooth});
   }
   Shape shape;
   shape.loops.push_back(std::move(chain));

@@ -226,6 +226,21 @@ TEST(Beziers, ConicsWrittenAsCurvesHaveTheirOrbits) {
                      1e-11);
 }
 
+TEST(Beziers, JointsOfOneCurveReflect) {
+  const Table table = spline({at(0, 0), at(3, -1), at(4, 1), at(2, 2), at(1, 4), at(-1, 2)});
+  for (const Vector joint : {Vector{3, -1}, Vector{4, 1}, Vector{1, 4}, Vector{-1, 2}}) {
+    World world(table);
+    Recorder seen;
+    const Vector from{1, 1}, way = joint - from;  // exact
+    world.add(particle(0.0, std::sqrt(dot(way, way))), start(from, way));
+    world.limit_hits(3);
+    world.run_until(1e300, seen);
+    ASSERT_EQ(seen.hits.size(), 3u) << world.report(0);
+    EXPECT_EQ(seen.hits[0].u, 0.0);
+    EXPECT_EQ(seen.hits[0].reflections, 1);
+  }
+}
+
 std::string fault_of(const TableSpec& spec) {
   try {
     build_table(spec);

@@ -70,6 +70,9 @@ struct Shaper {
     c.closed = true;
     return c;
   }
+  Shape operator()(const geometry::Bezier&) const {
+    throw std::logic_error("a Bézier curve: see bezier_test.cpp");
+  }
   Shape operator()(const Ellipse& s) const {
     const Rational centre = rational(s.centre), axis = rational(s.axis);
     Shape c = conic(centre + axis, centre + axis, centre, axis.x, axis.y, mpq_class(s.ratio),

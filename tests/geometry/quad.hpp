@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <stdexcept>
 
 #include "carom/geometry/curve.hpp"
 #include "carom/geometry/vector.hpp"
@@ -65,6 +66,7 @@ struct QuadCurve {
   void operator()(const geometry::Circle& s) {
     full(s.centre, {s.radius, 0.0}, s.counterclockwise);
   }
+  void operator()(const geometry::Bezier&) { throw std::logic_error("a Bézier curve: no conic"); }
   void operator()(const geometry::Ellipse& s) {
     p = quad(s.axis);
     k = Quad(s.ratio);
