@@ -80,9 +80,6 @@ struct Shaper {
     c.closed = true;
     return c;
   }
-  Shape operator()(const Bezier&) const {
-    throw std::invalid_argument("Bézier curves have an oracle of their own (bezier_test.cpp)");
-  }
   /// b is a, pressed to a circle along the axis p, turned, and drawn out again.
   static Shape conic(const Rational& from, const Rational& to, const Rational& centre,
                      const mpq_class& px, const mpq_class& py, const mpq_class& k,

@@ -72,9 +72,6 @@ struct QuadCurve {
     k = Quad(s.ratio);
     full(s.centre, s.axis, s.counterclockwise);
   }
-  void operator()(const geometry::Bezier&) {
-    throw std::invalid_argument("Bézier curves have an oracle of their own (bezier_test.cpp)");
-  }
 
   Quad metric(const QuadVector& e, const QuadVector& f) const {
     const QuadVector q = left(p);
