@@ -21,7 +21,7 @@ SMALL = {
     "1000 -o": "50 -o", "log:1:1e4:41": "log:1:100:11", "--t-max 1e4": "--t-max 100",
     "t_max=10**4": "t_max=100", "hits:lin:0:12:13": "hits:lin:0:4:5", "--digits 100": "--digits 20",
     "--trajectories 200": "--trajectories 5", "t > 1000": "t > 20", "(t < 300)": "(t < 90)",
-    "--t-max 1000": "--t-max 20", "log:1:1000:31": "log:1:20:5",
+    "--t-max 1000": "--t-max 20", "log:1:1000:31": "log:1:20:5", 'y="exponent"': 'y="survival"',  # no law is found
 }  # fmt: skip
 _made = importlib.util.spec_from_file_location("notebooks", TUTORIALS.parents[1] / "site" / "notebooks.py")
 notebooks = importlib.util.module_from_spec(_made)
