@@ -43,7 +43,7 @@ class Page:
         outputs = [i for i, block in enumerate(blocks) if is_output(block[1], block[2])]
         with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
             printed = ""
-            shown = re.findall(r"\]\((\.\./figures/(\w[\w-]*\.(?:png|svg)))\)", self.text) if draw else []
+            shown = re.findall(r"\]\((\.\./figures/(\w[\w-]*\.png))\)", self.text) if draw else []
             for i, block in enumerate(blocks[: len(blocks) if shown else outputs[-1] + 1 if outputs else 0]):
                 if i in outputs:
                     self._output(block, printed)

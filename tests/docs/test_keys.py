@@ -36,6 +36,10 @@ height = 1
 position = [0.5, 0.5]
 velocity = [1, 1]
 """
+POLAR = """[table]
+shape = "polar"
+radius = "1 + 0.3*cos(phi)"
+"""
 SOFT = """[table]
 shape = "rectangle"
 width = 2
@@ -78,7 +82,7 @@ RUNS = {
             "integrator.step=0.2", "lorentz-square --t-max 10", "stadium --closed --position 0,0 --velocity 3,4 --t-max 5"],
     "compare": ["stadium --closed --schemes velocity-verlet,arkode", "henon-heiles --schemes velocity-verlet,ruth-3"],
     "schemes": [""],
-    "table": ["mushroom", "./arc.toml -o x.svg"],
+    "table": ["mushroom", "./arc.toml -o x.svg", "./polar.toml"],
     "plot": ["stadium -o stadium.png"],
     "systems": ["", "stadium"],
     "validate": ["--scale 0.0005"],
@@ -138,7 +142,7 @@ def paths(value, before=""):
 def printed(command):
     found = set()
     with tempfile.TemporaryDirectory() as folder:
-        for name, text in (("discs", DISCS), ("corner", CORNER), ("arc", ARC), ("soft", SOFT)):
+        for name, text in (("discs", DISCS), ("corner", CORNER), ("arc", ARC), ("soft", SOFT), ("polar", POLAR)):
             (pathlib.Path(folder) / f"{name}.toml").write_text(text)
         for line in RUNS[command]:
             done = subprocess.run([PROGRAM, command, *line.split(), "--json", "--quiet"], cwd=folder,
