@@ -139,7 +139,7 @@ TEST(Beziers, StagesGiveTheSameBits) {
         without_grid(table, {1.0, 1 << 30});
     std::mt19937_64 random(6);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
-    for (int i = 0; i < 150; ++i) {
+    for (int i = 0; i < 70; ++i) {
       Flight f;
       const int wall = static_cast<int>(unit(random) * static_cast<double>(table.walls.size()));
       const geometry::Curve& curve = table.wall(wall).curve;
