@@ -231,7 +231,7 @@ TableSpec read_table(Value& root) {
     }
   }
   if (Value* laws = section.find("wall")) {
-    as_list(*laws);
+    as_sections(*laws, "wall = \"bottom\"");
     for (Value& law : laws->items) spec.laws.push_back(read_law(law));
   }
   if (Value* lattice = root.find("lattice")) read_lattice(*lattice, spec);
