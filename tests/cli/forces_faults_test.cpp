@@ -69,7 +69,11 @@ TEST(ForceFaults, StepsThatAreNotPositiveAreRefused) {
 
 TEST(ForceFaults, UnknownSchemeListsTheKnownOnes) {
   const Shell shell;
-  const Outcome o = shell("$carom run henon-heiles --set integrator.scheme=velocity-verlett");
+  const std::string set = "$carom run henon-heiles --set integrator.scheme=";
+  const Outcome near = shell(set + "velocity-verlett");
+  expect_refused(near, "command line: integrator.scheme: ");
+  EXPECT_TRUE(holds(near.err, "did you mean 'velocity-verlet'?")) << near.err;
+  const Outcome o = shell(set + "unheard-of");
   expect_refused(o, "command line: integrator.scheme: ");
   for (const Scheme& scheme : schemes())
     EXPECT_TRUE(holds(o.err, std::string(scheme.name))) << scheme.name;
