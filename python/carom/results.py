@@ -161,8 +161,7 @@ class Lyapunov(Result, archive="lyapunov"):
     table they are those of the orbits that never leave, and repeller says how they were measured. Array:
 
     distribution  (number of bins,): from, to (1/time), count: finite-time exponents of the orbits
-    convergence   (number of times,): t (time), lambda, lambda_stderr (1/time; NaN where few orbits
-                  or quasi-random starts give none): the exponent since the start
+    convergence   (number of times,): t (time), lambda, lambda_stderr (1/time): the exponent since the start
 
     With spectrum=True also entropy (value, stderr: 1/time), pairing (1/time), zeros (count, laws,
     largest) and the array
