@@ -112,6 +112,14 @@ Shape random_discs(const TableSpec& spec) {
     throw InputError(radius_number.place(), "the discs are too large for the square",
                      "radius < side/4");
   }
+  // No packing of a torus is denser than the triangular lattice, pi/sqrt(12) = 0.9069 (Fejes Toth
+  // 1940): the many draws that would find no room are spared.
+  if (const double discs = static_cast<double>(count), share = radius / side;
+      3.1415 * discs * share * share > 0.907)
+    throw InputError(count_number.place(),
+                     "the discs would fill more of the square than the densest packing does",
+                     "fewer or smaller discs: placed one after the other they fill about half of "
+                     "the area");
   // Between walls a disc keeps off them by the margin that it keeps from others.
   const double margin = spec.torus ? 0.0 : radius + rounding * side;
   Arrangement arrangement(side, radius, count, spec.torus);
