@@ -19,7 +19,7 @@ def hits(system: Systems, *, block: int = 100_000, **keywords: Any) -> Iterator[
     same bits. Keywords as of `carom.run`: hits of one trajectory, in order of time. With trajectories=1000: as of
     `carom.escape`, those of all, one trajectory after the other.
 
-        for rows in carom.hits("stadium", collisions=10**8):
+        for rows in carom.hits(carom.stadium(half_length=1, radius=1), collisions=10**8):
             histogram += numpy.bincount(rows["wall"], minlength=len(histogram))
 
     Ctrl-C raises KeyboardInterrupt; leaving the loop ends the computation.

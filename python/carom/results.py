@@ -239,7 +239,7 @@ class Run(Result, archive="run"):
         return self._outcome.samples().view(Rows)
 
     def _asked_for(self, rows):
-        """The same; where they are none because nobody has asked for them, with a warning."""
+        """The same; where they are none because `sample=` was not given, with a warning."""
         if not len(rows) and not len(self._samples):
             warnings.warn("no samples are stored: carom.run(…, sample=0.1) stores the state at every 0.1 of time",
                           stacklevel=3)  # fmt: skip

@@ -52,7 +52,7 @@ class HitQueue {
 // What a run tells, kept: rows for arrays, events for an archive.
 class Recording : public Observer {
  public:
-  // `queue`: gets the hits, too; null: nobody asks for them.
+  // `queue`: gets the hits, too; null: Python asks for none.
   Recording(const System& system, Course& course, HitQueue* queue)
       : system_(system),
         frames_(frames_of(*system.table)),

@@ -33,7 +33,7 @@ class Stream {
   Stream(const Stream&) = delete;
   ~Stream() { close(); }
 
-  /// Adds rows at(0) … at(many - 1); one call at a time. False: nobody wants more.
+  /// Adds rows at(0) … at(many - 1); one call at a time. False: no more are wanted.
   template <class At>
   bool push(std::size_t many, At at) {
     for (std::size_t i = 0; i < many;) {

@@ -124,6 +124,9 @@ class Drawing {
   }
 
  private:
+  static constexpr int deepest = 12;              ///< halvings of a quarter of the curve
+  static constexpr double most_distance = 1e-14;  ///< of its size
+
   static double length_of(Vector v) { return std::sqrt(dot(v, v)); }
   [[noreturn]] void refuse(const std::string& problem, double at) const {
     throw InputError(curve_.place,
@@ -138,16 +141,24 @@ class Drawing {
         refuse("the curve or one of its first two derivatives has no value", at);
     return j;
   }
-  /// The end is the start, where the formulas have the same values and slopes to rounding.
-  Jet closing(const Jet& start) const {
+  /// The end is the start. By how much the formulas miss it moves the last piece, and counts in
+  /// its distance from the curve (`missed`); what no piece is short enough for is refused.
+  Jet closing(const Jet& start) {
     Jet end = jet(curve_.to);
-    const double size = length_of(end.x) + length_of(end.first) + length_of(end.second);
-    if (length_of(end.x - start.x) + length_of(end.first - start.first) > 0x1p-36 * size)
-      refuse("the curve does not close smoothly: it ends elsewhere, or in another direction",
-             curve_.to);
+    gap_ = {curve_.to, end.x - start.x, end.first - start.first, end.second - start.second};
+    if (missed(std::ldexp(0.25 * (curve_.to - curve_.from), -deepest)) > most_distance * size_)
+      refuse(
+          "the curve does not close smoothly: it ends elsewhere, in another direction, or with "
+          "another curvature",
+          curve_.to);
     end = start;
     end.at = curve_.to;
     return end;
+  }
+  /// A piece of that length whose end is displaced by the gap moves by no more: the polynomials
+  /// that it is multiplied by are below 1, the length, and its square.
+  double missed(double length) const {
+    return length_of(gap_.x) + length * (length_of(gap_.first) + length * length_of(gap_.second));
   }
 
   /// How far the quintic is from the curve at most: docs/physics/exactness.md, Bézier curves. h is
@@ -165,8 +176,8 @@ class Drawing {
   }
 
   void cut(const Jet& a, const Jet& b, int depth) {
-    const double off = distance(a, b);
-    if (off <= 1e-14 * size_) {
+    const double off = distance(a, b) + (b.at == curve_.to ? missed(b.at - a.at) : 0.0);
+    if (off <= most_distance * size_) {
       pieces_.push_back(quintic(a, b));
       try {
         geometry::frame_of(pieces_.back());
@@ -177,7 +188,6 @@ class Drawing {
       return;
     }
     const Jet middle = jet(0.5 * (a.at + b.at));
-    constexpr int deepest = 12;
     if (depth == deepest) refuse("the curve is too wild for Bézier curves", middle.at);
     cut(a, middle, depth + 1);
     cut(middle, b, depth + 1);
@@ -185,6 +195,7 @@ class Drawing {
 
   Curve curve_;
   double size_ = 0.0, distance_ = 0.0;
+  Jet gap_{};  ///< between the formulas' end and their start
   std::vector<Bezier> pieces_;
 };
 
