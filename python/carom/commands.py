@@ -36,7 +36,7 @@ def _compute(kind, function, thing, command, keywords, progress, *arguments):
         return _sweep(kind, function, of, command, keywords, progress, *arguments)
     keywords.pop("sweep", None)
     loaded = of._loaded(command, **keywords)
-    outcome, error = shown(progress, function, loaded, *arguments)
+    outcome, error = shown(progress, function, loaded, *arguments, result_of=lambda part: kind(part, of))
     if error is None and hasattr(outcome, "check"):
         outcome.check()  # as the program, which ends with status 1
     result = kind(outcome, of._keeping(keywords))

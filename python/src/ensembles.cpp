@@ -2,6 +2,8 @@
 #include <pybind11/stl.h>
 
 #include <functional>
+#include <mutex>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -13,6 +15,7 @@
 #include "cli/common.hpp"
 #include "cli/reports/ensemble_outcome.hpp"
 #include "loaded.hpp"
+#include "own_step.hpp"
 #include "run_in_background.hpp"
 
 namespace py = pybind11;
@@ -47,44 +50,76 @@ struct ExponentRow {
 using cli::EnsembleOutcome;
 using cli::OutcomeOf;
 
-// Keeps the records of blocks as they come.
+// Keeps the records of blocks as they come, if they are wanted, and the result so far.
 template <class Result>
-class Records : public EnsembleJournal<Result> {
+class Kept : public EnsembleJournal<Result> {
  public:
-  bool wants_records() const override { return true; }
+  explicit Kept(bool records) : records_(records) {}
+  bool wants_records() const override { return records_; }
   void block(TrajectoryRange, std::vector<TrajectoryRecord>&& records) override {
     all.insert(all.end(), records.begin(), records.end());
   }
-  void save(const Result&) override {}
+  void save(const Result& so_far) override {
+    const std::lock_guard lock(mutex_);
+    so_far_ = so_far;
+  }
+  /// The result so far, once.
+  std::optional<Result> take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(so_far_, std::nullopt);
+  }
 
   std::vector<TrajectoryRecord> all;
+
+ private:
+  const bool records_;
+  std::mutex mutex_;
+  std::optional<Result> so_far_;
 };
 
 // The outcome, and what ended it early or None.
 template <class Result>
 py::tuple fly(const LoadedPointer& loaded, const py::object& progress) {
   const auto outcome = std::make_shared<OutcomeOf<Result>>(loaded);
-  const System& system = loaded->system();
   EnsembleOptions<Result> how;
   how.threads = cli::threads_of(loaded->options);
   how.lanes = cli::instruction_set_of(loaded->options);
-  Records<Result> records;
-  if (loaded->options.per_trajectory) how.journal = &records;
+  const bool records = loaded->options.per_trajectory;
+  const bool grows = !progress.is_none() && py::hasattr(progress, "so_far");
+  Kept<Result> kept(records);
+  if (records || grows) how.journal = &kept;
+  how.save_every = 1.0;
   Course course;
   how.interrupted = &course.stop;
   // A tenth of the time of short trajectories goes into telling of each.
   if (!progress.is_none())
     how.progress = [&](std::uint64_t trajectories, std::uint64_t) {
       course.done = trajectories;
-      course.share =
-          static_cast<double>(trajectories) / static_cast<double>(system.run.trajectories);
+      course.share = static_cast<double>(trajectories) /
+                     static_cast<double>(loaded->system().run.trajectories);
     };
+  py::object told = progress;
+  if (grows)
+    told = py::cpp_function([&](double share, std::uint64_t done) {
+      progress(share, done);
+      std::optional<Result> so_far = kept.take();
+      if (!so_far || so_far->done.size() == 0) return;
+      const auto part = std::make_shared<OutcomeOf<Result>>(outcome->loaded);
+      part->result = std::move(*so_far);
+      part->status = cli::status_of(false);
+      progress.attr("so_far")(part);
+    });
   const std::exception_ptr interruption =
-      run_in_background(course, progress, [&] { outcome->result = flown(system, how); });
+      fly_with_own_step(*outcome, course, told, [&]() -> std::optional<EnergyError> {
+        kept.all.clear();
+        outcome->result = flown(outcome->system(), how);
+        if (!outcome->result.complete) return std::nullopt;
+        return outcome->result.energy_error;
+      });
   outcome->status = cli::status_of(outcome->result.complete);
-  std::sort(records.all.begin(), records.all.end(),
+  std::sort(kept.all.begin(), kept.all.end(),
             [](const auto& a, const auto& b) { return a.index < b.index; });
-  if (how.journal) outcome->records = std::move(records.all);
+  if (records) outcome->records = std::move(kept.all);
   return py::make_tuple(outcome, error_of(interruption));
 }
 

@@ -87,8 +87,15 @@ cli::Options options_of(const std::string& toml, const std::string& name,
 void add_outcomes(py::module_& module) {
   py::class_<Outcome, cli::OutcomePointer>(module, "Outcome")
       .def_readonly("system", &Outcome::loaded)
-      .def("json", [](const Outcome& self) { return self.json().text(); })
-      .def("text", &Outcome::text)
+      .def(
+          "json",
+          [](const Outcome& self) {
+            return (self.own_step ? self.own_step->with_halvings(self.json()) : self.json()).text();
+          })
+      .def("text",
+           [](const Outcome& self) {
+             return self.own_step ? self.text() + self.own_step->text() : self.text();
+           })
       .def("doubts", &Outcome::doubts)
       .def(
           "save",

@@ -20,6 +20,7 @@
 #include "carom/system/section.hpp"
 #include "cli/common.hpp"
 #include "loaded.hpp"
+#include "own_step.hpp"
 #include "run_in_background.hpp"
 
 namespace py = pybind11;
@@ -113,7 +114,6 @@ class Recording : public Observer {
 
 py::tuple run(const LoadedPointer& loaded, bool state_error, const py::object& on_hit,
               const py::object& progress) {
-  const System& system = loaded->system();
   const cli::Options& options = loaded->options;
   const auto made = std::make_shared<RunOutcome>(loaded);
   RunOutcome& outcome = *made;
@@ -132,17 +132,25 @@ py::tuple run(const LoadedPointer& loaded, bool state_error, const py::object& o
       hand_over();
       if (!progress.is_none()) progress(share, done);
     });
-  Recording recording(system, course, asked ? &queue : nullptr);
+  std::optional<Recording> recording;
   SingleRunOptions how;
   how.trajectory = outcome.trajectory;
   how.estimate_state_error = state_error;
   how.interrupted = [&] { return course.stop.load(std::memory_order_relaxed); };
-  std::exception_ptr interruption = run_in_background(course, told, [&] {
-    if (estimates_trust(system)) how.written = written_system(loaded->loaded);
-    how.started = [&](const World& world) { outcome.starts = start_rows(world, *system.table); };
-    outcome.result = run_single(system, recording, how);
-    recording.queue();
-  });
+  std::exception_ptr interruption =
+      fly_with_own_step(outcome, course, told, [&]() -> std::optional<EnergyError> {
+        const System& system = outcome.system();
+        recording.emplace(system, course, asked ? &queue : nullptr);
+        if (estimates_trust(system)) how.written = written_system(outcome.loaded->loaded);
+        how.started = [&](const World& world) {
+          outcome.starts = start_rows(world, *system.table);
+        };
+        outcome.result = run_single(system, *recording, how);
+        recording->queue();
+        // Hits that Python's function has had cannot be taken back.
+        if (asked || outcome.result.interrupted) return std::nullopt;
+        return energy_error_of(outcome.result);
+      });
   if (!interruption) try {
       hand_over();
     } catch (py::error_already_set&) {
@@ -150,15 +158,14 @@ py::tuple run(const LoadedPointer& loaded, bool state_error, const py::object& o
     }
   if (interruption && outcome.result.particles.empty()) std::rethrow_exception(interruption);
   outcome.status = cli::run_status(outcome.result);
-  outcome.hits = {recording.hits};
-  outcome.samples = {recording.samples};
-  outcome.contacts = {recording.contacts};
-  outcome.energies = {recording.energies};
+  outcome.hits = {recording->hits};
+  outcome.samples = {recording->samples};
+  outcome.contacts = {recording->contacts};
+  outcome.energies = {recording->energies};
   return py::make_tuple(made, error_of(interruption));
 }
 
 py::tuple section(const LoadedPointer& loaded, const py::object& progress) {
-  const System& system = loaded->system();
   const auto outcome = std::make_shared<SectionOutcome>(loaded);
   SectionOptions how;
   how.threads = cli::threads_of(loaded->options);
@@ -167,13 +174,18 @@ py::tuple section(const LoadedPointer& loaded, const py::object& progress) {
   how.points = [&](const std::vector<SectionPoint>& points) {
     outcome->points->insert(outcome->points->end(), points.begin(), points.end());
   };
-  const double all = static_cast<double>(section_orbits(system));
+  const double all = static_cast<double>(section_orbits(loaded->system()));
   how.progress = [&](std::uint64_t orbits, std::uint64_t) {
     course.done = orbits;
     course.share = static_cast<double>(orbits) / all;
   };
   const std::exception_ptr interruption =
-      run_in_background(course, progress, [&] { outcome->result = run_section(system, how); });
+      fly_with_own_step(*outcome, course, progress, [&]() -> std::optional<EnergyError> {
+        outcome->points->clear();
+        outcome->result = run_section(outcome->system(), how);
+        if (!outcome->result.complete) return std::nullopt;
+        return outcome->result.energy_error;
+      });
   return py::make_tuple(outcome, error_of(interruption));
 }
 

@@ -3,10 +3,12 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "carom/files/system_file.hpp"
+#include "cli/commands/own_step.hpp"
 #include "cli/options.hpp"
 #include "files/json.hpp"
 
@@ -34,7 +36,8 @@ class Outcome {
   virtual void save(const std::string& file, bool force, const std::atomic<bool>& stop) const;
 
   const System& system() const { return loaded->system(); }
-  LoadedPointer loaded;  ///< null: it has no system
+  LoadedPointer loaded;             ///< null: it has no system
+  std::optional<OwnStep> own_step;  ///< of one that was flown here
 };
 using OutcomePointer = std::shared_ptr<Outcome>;
 

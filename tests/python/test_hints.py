@@ -152,9 +152,13 @@ class Handle:
         self.shown.append(html)
 
 
-def test_notebooks_show_progress(monkeypatch):
+@pytest.fixture
+def notebook(monkeypatch):
+    """A notebook, and what it shows."""
     import types
 
+    carom.axes.pyplot().figure()  # looks at IPython, which is none here
+    carom.axes.pyplot().close()
     handle = Handle()
 
     def display(html, display_id):
@@ -164,6 +168,10 @@ def test_notebooks_show_progress(monkeypatch):
     shell = types.SimpleNamespace(kernel=None)
     monkeypatch.setitem(sys.modules, "IPython", types.SimpleNamespace(get_ipython=lambda: shell))
     monkeypatch.setitem(sys.modules, "IPython.display", types.SimpleNamespace(HTML=str, display=display))
+    return handle
+
+
+def test_notebooks_show_progress(notebook):
     shown = carom.progress.progress_of(None)
     assert carom.progress.progress_of(False) is None
     shown.last -= 1
@@ -172,6 +180,13 @@ def test_notebooks_show_progress(monkeypatch):
     shown.last -= 1
     shown(0.5, 2000)
     shown.close()
-    assert len(handle.shown) == 3 and 'value="0.2500"' in handle.shown[0] and "2000 done" in handle.shown[1]
-    assert handle.shown[-1] == ""
+    assert len(notebook.shown) == 3 and 'value="0.2500"' in notebook.shown[0] and "2000 done" in notebook.shown[1]
+    assert notebook.shown[-1] == ""
     carom.escape("sinai", trajectories=100)
+
+
+def test_notebooks_show_the_ensemble_so_far(notebook):
+    result = carom.lyapunov("sinai", trajectories=120_000, t_max=1000, threads=1)
+    assert result.json["status"] == "completed" and notebook.shown[-1] == ""
+    assert any("<progress" in html and "data:image/png;base64," in html for html in notebook.shown)
+    assert not carom.axes.pyplot().get_fignums()

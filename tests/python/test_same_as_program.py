@@ -67,6 +67,23 @@ def test_nothing_to_measure_is_refused_as_by_the_program():
     assert mixed.results[0].orbits > 0 == mixed.results[1].orbits
 
 
+WELL = """
+potential = [{ kind = "expression", expression = "(x^2 + y^2)/2 + x^4/40" }]
+initial = { kind = "list", starts = [[1, 0, 0, 0.5], [0.5, 0.3, 0.3, 0.4]] }
+integrator.energy_tolerance = 1e-13
+section.on = "x=0.25"
+run.t_max = 200
+"""
+
+
+@pytest.mark.parametrize("command", ["run", "escape", "diffusion", "section"])
+def test_a_chosen_step_is_halved(program, tmp_path, command):
+    (tmp_path / "well.toml").write_text(WELL)
+    result = getattr(carom, command)(tmp_path / "well.toml")
+    assert result.json["step_halvings"] >= 1 and "halved" in str(result)
+    same(result, program(command, tmp_path / "well.toml"))
+
+
 @pytest.mark.parametrize(
     "name, keywords, options",
     [

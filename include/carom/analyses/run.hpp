@@ -163,6 +163,9 @@ struct SingleRunResult {
   double seconds = 0, cpu_seconds = 0;  ///< of all parts
 };
 
+/// Of all its particles.
+EnergyError energy_error_of(const SingleRunResult&);
+
 /// Are rounding errors estimated (trust/trust.hpp)? Where motion is integrated or discs meet
 /// they are not.
 bool estimates_trust(const System&);

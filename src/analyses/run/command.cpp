@@ -230,9 +230,7 @@ int run(const Options& options) {
       how.started = [&](const World& world) { archive->start(start_rows(world, *system.table)); };
     }
     result = run_single(system, counting, how);
-    EnergyError energy;
-    for (const RunEnd& end : result.particles) energy += end.energy_error;
-    if (result.interrupted || !own_step.halve(loaded, energy)) break;
+    if (result.interrupted || !own_step.halve(loaded, energy_error_of(result))) break;
     archive.reset();
     begin_archive(true);
   }

@@ -118,8 +118,7 @@ std::string particles_text(const System& system, const SingleRunResult& result, 
   }
   std::string text = "\n" + fitted(columns);
   if (rows < all) text += fmt::format("  and {} more; --verbose prints all\n", grouped(all - rows));
-  EnergyError energy;
-  for (const RunEnd& particle : result.particles) energy += particle.energy_error;
+  const EnergyError energy = energy_error_of(result);
   return text + fmt::format("\n  energy error  {:.2g} at the end, {:.2g} at most\n", energy.end,
                             energy.largest);
 }
@@ -155,9 +154,7 @@ std::string checks_text(const SingleRunResult& result) {
 
 /// Why the energy cannot be trusted; "" if it is kept.
 std::string energy_note(const System& system, const SingleRunResult& result) {
-  EnergyError all;
-  for (const RunEnd& particle : result.particles) all += particle.energy_error;
-  return energy_doubt(system, all);
+  return energy_doubt(system, energy_error_of(result));
 }
 
 }  // namespace

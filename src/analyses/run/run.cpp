@@ -444,6 +444,12 @@ class SingleRun {
 
 }  // namespace
 
+EnergyError energy_error_of(const SingleRunResult& result) {
+  EnergyError all;
+  for (const RunEnd& particle : result.particles) all += particle.energy_error;
+  return all;
+}
+
 bool estimates_trust(const System& system) {
   return !system.dynamics.everywhere && !system.of_discs() && !scatters(*system.table) &&
          table::bezier_wall(*system.table) == nullptr &&

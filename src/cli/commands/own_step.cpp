@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "carom/files/system_file.hpp"
-#include "cli/common.hpp"
 #include "cli/reports/doubts.hpp"
 #include "files/toml/halved_step.hpp"
 
@@ -16,7 +15,8 @@ constexpr int most_halvings = 6;
 
 }  // namespace
 
-OwnStep::OwnStep(const Options& options) : may_(options.resume.empty() && options.shard.empty()) {}
+OwnStep::OwnStep(const Options& options, Say say)
+    : may_(options.resume.empty() && options.shard.empty()), say_(say) {}
 
 bool OwnStep::halve(LoadedSystem& loaded, const EnergyError& error) {
   const IntegratorPlan& plan = loaded.system.dynamics.integrator;
@@ -26,7 +26,7 @@ bool OwnStep::halve(LoadedSystem& loaded, const EnergyError& error) {
   ++halvings_;
   error_ = error.largest;
   files::halve_step(loaded);
-  warn(
+  say_(
       fmt::format("the energy changed by {:.2g} of the largest kinetic energy with the step that "
                   "was chosen: again with {}",
                   error.largest, plan.step));

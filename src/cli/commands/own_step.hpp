@@ -4,6 +4,7 @@
 #include <string>
 
 #include "carom/events/energy.hpp"
+#include "cli/common.hpp"
 #include "cli/options.hpp"
 #include "files/json.hpp"
 
@@ -17,11 +18,13 @@ namespace carom::cli {
 /// does that of a part: of a shard, of what goes on.
 class OwnStep {
  public:
-  explicit OwnStep(const Options&);
+  using Say = void (*)(const std::string&);
+  /// `say`: where it says that it halves.
+  explicit OwnStep(const Options&, Say say = warn);
 
   /// Is all to begin again, as the energy changed by more than integrator.energy_tolerance and half
-  /// the step may help? Then it halves the step, and says so on standard error. It helps no more
-  /// where the last half has not halved the error.
+  /// the step may help? Then it halves the step, and says so. It helps no more where the last half
+  /// has not halved the error.
   bool halve(LoadedSystem&, const EnergyError&);
 
   /// A report with the key `step_halvings`, and a line of a text; nothing where there were none.
@@ -30,6 +33,7 @@ class OwnStep {
 
  private:
   bool may_;
+  Say say_;
   int halvings_ = 0;
   double error_ = 0.0;  ///< with the step before
 };

@@ -111,11 +111,15 @@ class Converter {
   std::string file_;
 };
 
+// All parts of the value are at one place; each keeps its own key.
 void move_to(const Place& place, Value& value) {
-  value.place = place;
+  const auto move = [&](Place& moved) {
+    moved = {place.file, place.line, place.column, moved.key};
+  };
+  move(value.place);
   for (Value& item : value.items) move_to(place, item);
   for (Entry& entry : value.entries) {
-    entry.place = place;
+    move(entry.place);
     move_to(place, entry.value);
   }
 }
@@ -140,7 +144,7 @@ Value parse_value(const std::string& text, const Place& place) {
   try {
     const toml::table root = toml::parse(std::string_view(document), std::string_view("value"));
     if (root.size() == 1) {
-      Value value = Converter(document, "value").convert(*root.get("value"), "");
+      Value value = Converter(document, "value").convert(*root.get("value"), place.key);
       move_to(place, value);
       return value;
     }
