@@ -57,6 +57,7 @@
 #include "carom/events/dynamics.hpp"
 #include "carom/events/energy.hpp"
 #include "carom/events/event.hpp"
+#include "carom/events/medium.hpp"
 #include "carom/events/observer.hpp"
 #include "carom/events/report.hpp"
 #include "carom/events/step_counts.hpp"

@@ -218,9 +218,8 @@ def _orbits(result, ax, numbers, style):
     table(
         result.system, ax=ax, names=False, levels=False, directions=False, field=False, starts=0, cells=sorted(cells)
     )
-    (omega,) = _carom.omegas(result._outcome.system)
     for number in numbers:
-        path = _carom.path(result.paths[number], omega)
+        path = _carom.path(result._outcome.system, 0, True, result.paths[number])
         family = result.json["orbits"][number]["family"]
         colour = colour_of(number, len(numbers)) if len(numbers) > 1 else COLOURS[0]
         usual = {"color": colour, "zorder": 2, "linestyle": "--" if family else "-"}

@@ -38,13 +38,10 @@ def animate(
     particles = sorted(set(thing.starts["particle"].tolist()))
     last = min(t_max or numpy.inf, *(thing._states(p)[-1, 0] for p in particles), _hundredth(thing))
     times = numpy.linspace(0.0, last, frames)
-    omegas = _carom.omegas(thing._outcome.system)
-    free = thing.engine == "events"
     where = _carom.frames(
-        [thing._states(p) for p in particles],
-        [omegas[p] if free else 0.0 for p in particles],
-        list(times),
-    )
+        thing._outcome.system, particles, thing.engine == "events",
+        [thing._states(p) for p in particles], list(times),
+    )  # fmt: skip
     ax = _stage(thing, where)
     clock = ax.annotate("", (0, 0), xycoords="axes fraction", xytext=(0, -22), va="top",
                         textcoords="offset points", fontsize="x-small", color="0.35")  # fmt: skip

@@ -281,25 +281,24 @@ class Run(Result, archive="run"):
         Arcs have points between their ends. Where forces act: its samples and hits."""
         if particle not in self.starts["particle"]:
             raise InputError(f"there is no particle {particle!r}", ("", 0, 0, "particle"), "its index, from 0 on")
-        omegas = _carom.omegas(self._outcome.system)
-        omega = omegas[particle] if self.engine == "events" else 0.0
-        return _carom.path(self._states(particle), omega)
+        return _carom.path(self._outcome.system, particle, self.engine == "events", self._states(particle))
 
     def _states(self, particle):
-        """Rows of (t, x, y, vx, vy): start, samples where forces act, hits, contacts, end."""
+        """Rows of (t, x, y, vx, vy, wall or -1): start, samples where forces act, hits, contacts, end."""
         rows = [self.starts[self.starts["particle"] == particle]]
         names = ["t", "x", "y", "vx", "vy"]
         if self.engine != "events":
             rows.append(self._samples[self._samples["particle"] == particle])
         rows.append(self.hits[self.hits["particle"] == particle])
-        parts = [numpy.stack([r[n] for n in names], axis=1) for r in rows]
+        parts = [numpy.stack([*(r[n] for n in names), numpy.full(len(r), -1)], axis=1) for r in rows]
+        parts[-1][:, 5] = rows[-1]["wall"]
         for which in ("first", "second"):
             met = self.contacts[self.contacts[which] == particle]
             columns = ["t", *(f"{which}_{name}" for name in names[1:])]
-            parts.append(numpy.stack([met[name] for name in columns], axis=1))
+            parts.append(numpy.stack([*(met[name] for name in columns), numpy.full(len(met), -1)], axis=1))
         table = numpy.concatenate(parts)
         end = self._json if "x" in self._json else self._json["particles"][particle]
-        last = [float(end[name] or 0) for name in names]
+        last = [*(float(end[name] or 0) for name in names), -1]
         table = numpy.concatenate([table[table[:, 0] <= last[0]], [last]])
         return table[numpy.argsort(table[:, 0], kind="stable")]
 

@@ -202,6 +202,17 @@ class System:
             toml.section("table.obstacle", {"shape": shape, "name": name, **keys}, True)
         )
 
+    @_of_keywords
+    def wall(self, law, wall=None, **keys) -> "System":
+        """How a wall reflects, or all of them: law "specular", "diffuse" or "mixed" {specularity}."""
+        return self._append(toml.section("table.wall", {"wall": wall, "law": law, **keys}, True))
+
+    @_of_keywords
+    def region(self, wall, **keys) -> "System":
+        """Particles pass that wall of an obstacle. index, potential (energy), B: within; reflection:
+        "none", "s" or "p"."""
+        return self._append(toml.section("table.region", {"wall": wall, **keys}, True))
+
     def closed(self) -> "System":
         """The same without holes."""
         return System(

@@ -8,6 +8,7 @@ from .axes import COLOURS, legend, new_axes, picture, plain, style_of, title
 WALL = "#222222"
 _MATTER = "#e6e4df"  # obstacles
 _SPACE = "#fafaf7"  # where particles move
+_REGION = "#dfeaf4"  # where they move otherwise
 _BESIDE = 7  # points between a wall and its name
 
 
@@ -81,6 +82,10 @@ def _walls(loaded, walls, ax, cells, style):
             patch = PathPatch(Path(loop + shift, closed=True), linewidth=0, zorder=0.2)
             patch.set_facecolor(_SPACE if inside else _MATTER)
             drawn.append(ax.add_patch(patch))
+        for loop in _loops(_carom.regions(loaded)):
+            if not shown or _touch(loop + shift, reach):
+                path = Path(loop + shift, closed=True)
+                drawn.append(ax.add_patch(PathPatch(path, linewidth=0, zorder=0.3, facecolor=_REGION)))
         for _, pieces, holes in walls:
             for piece in pieces:
                 if shown and not _touch(piece + shift, reach):

@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "arrays.hpp"
 #include "carom/analyses/run/rows.hpp"
+#include "carom/events/medium.hpp"
 #include "carom/events/world.hpp"
 #include "carom/forces/force_field.hpp"
 #include "carom/geometry/curve_frame.hpp"
@@ -62,7 +64,7 @@ std::vector<Vector> piece(const geometry::Curve& curve, double u, double v) {
 py::list walls(const Loaded& loaded) {
   const Table& table = *loaded.system().table;
   py::list all;
-  for (const Wall& wall : table.walls) {
+  for (const Wall& wall : seen_from(table, -1).walls) {
     py::list pieces, holes;
     const double last = geometry::end_parameter(wall.curve);
     double from = 0.0;
@@ -75,6 +77,16 @@ py::list walls(const Loaded& loaded) {
     if (from < last) pieces.append(pairs(piece(wall.curve, from, last)));
     all.append(py::make_tuple(wall.name, pieces, holes));
   }
+  return all;
+}
+
+// The walls of all regions.
+py::list regions(const Loaded& loaded) {
+  const Table& table = *loaded.system().table;
+  py::list all;
+  for (std::size_t r = 0; r < table.regions.size(); ++r)
+    for (const Wall& wall : seen_from(table, static_cast<int>(r)).walls)
+      all.append(pairs(piece(wall.curve, 0.0, geometry::end_parameter(wall.curve))));
   return all;
 }
 
@@ -110,12 +122,47 @@ void fly(std::vector<PathPoint>& path, Vector x, Vector v, double omega, double 
   }
 }
 
-// The flights through rows of (t, x, y, vx, vy), the last of which ends the path.
-py::array_t<PathPoint> path(const py::array_t<double, py::array::c_style>& rows, double omega) {
+// Rows of (t, x, y, vx, vy), from each of which a particle flies on; and, where regions differ, the
+// wall that it flies from, -1: none.
+using Flights = py::array_t<double, py::array::c_style>;
+
+// The Larmor frequency of a flight. `free`: it is one, between events.
+class Turning {
+ public:
+  Turning(const Loaded& loaded, std::size_t particle, bool free)
+      : table_(*loaded.system().table), particle_(loaded.system().particles.at(particle)) {
+    if (!free) particle_.omega = 0.0;
+    if (free && !table_.regions.empty()) world_.emplace(table_);
+  }
+  template <class Rows>
+  double operator()(const Rows& row, py::ssize_t i) {
+    if (!world_) return particle_.omega;
+    if (row(i, 5) >= 0.0)
+      return in_region(table_, particle_, region_of(table_, static_cast<int>(row(i, 5)))).omega;
+    State state;
+    state.position = {row(i, 1), row(i, 2)};
+    state.velocity = {row(i, 3), row(i, 4)};
+    fold_into_cell(table_, state.position, state.cell);
+    world_->clear();
+    world_->add(particle_, state);
+    return world_->particle(0).omega;
+  }
+
+ private:
+  const Table& table_;
+  Particle particle_;
+  std::optional<World> world_;
+};
+
+// The flights through rows, the last of which ends the path.
+py::array_t<PathPoint> path(const Loaded& loaded, std::size_t particle, bool free,
+                            const Flights& rows) {
   const auto row = rows.unchecked<2>();
+  Turning turning(loaded, particle, free);
   std::vector<PathPoint> points;
   for (py::ssize_t i = 0; i + 1 < row.shape(0); ++i)
-    fly(points, {row(i, 1), row(i, 2)}, {row(i, 3), row(i, 4)}, omega, row(i, 0), row(i + 1, 0));
+    fly(points, {row(i, 1), row(i, 2)}, {row(i, 3), row(i, 4)}, turning(row, i), row(i, 0),
+        row(i + 1, 0));
   if (row.shape(0) > 0) {
     const py::ssize_t last = row.shape(0) - 1;
     points.push_back({row(last, 0), row(last, 1), row(last, 2)});
@@ -151,22 +198,26 @@ py::array_t<double> starts(const Loaded& loaded, std::uint64_t trajectories) {
 
 // Where particles are at each time: x and y by time and particle, NaN before the start and after
 // the end. Rows are those of path(), one table a particle, each in order of time.
-py::array_t<double> frames(const std::vector<py::array_t<double, py::array::c_style>>& tables,
-                           const std::vector<double>& omegas, const std::vector<double>& times) {
+py::array_t<double> frames(const Loaded& loaded, const std::vector<std::size_t>& particles,
+                           bool free, const std::vector<Flights>& tables,
+                           const std::vector<double>& times) {
   const auto many = static_cast<py::ssize_t>(tables.size());
   py::array_t<double> array({static_cast<py::ssize_t>(times.size()), many, py::ssize_t{2}});
   auto view = array.mutable_unchecked<3>();
   for (py::ssize_t p = 0; p < many; ++p) {
     const auto row = tables[static_cast<std::size_t>(p)].unchecked<2>();
-    const double omega = omegas[static_cast<std::size_t>(p)];
-    py::ssize_t i = 0;
+    Turning turning(loaded, particles[static_cast<std::size_t>(p)], free);
+    py::ssize_t i = 0, from = -1;
+    double omega = 0.0;
     for (py::ssize_t k = 0; k < view.shape(0); ++k) {
       const double t = times[static_cast<std::size_t>(k)];
       while (i + 1 < row.shape(0) && row(i + 1, 0) <= t) ++i;
       Vector x{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
-      if (row.shape(0) > 0 && row(0, 0) <= t && t <= row(row.shape(0) - 1, 0))
+      if (row.shape(0) > 0 && row(0, 0) <= t && t <= row(row.shape(0) - 1, 0)) {
+        if (i + 1 < row.shape(0) && i != from) omega = turning(row, from = i);
         x = motion::moved({row(i, 1), row(i, 2)}, {row(i, 3), row(i, 4)}, omega, t - row(i, 0))
                 .first;
+      }
       view(k, p, 0) = x.x;
       view(k, p, 1) = x.y;
     }
@@ -207,11 +258,14 @@ py::object potential(const Loaded& loaded, const std::vector<double>& xs,
 void add_pictures(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(PathPoint, t, x, y);
   module.def("walls", &walls, py::arg("system"));
+  module.def("regions", &regions, py::arg("system"));
   module.def("cell", &cell, py::arg("system"));
   module.def("translations", &translations, py::arg("system"), py::arg("cells"));
-  module.def("path", &path, py::arg("rows"), py::arg("omega"));
+  module.def("path", &path, py::arg("system"), py::arg("particle"), py::arg("free"),
+             py::arg("rows"));
   module.def("disc_radii", &disc_radii, py::arg("system"));
-  module.def("frames", &frames, py::arg("tables"), py::arg("omegas"), py::arg("times"));
+  module.def("frames", &frames, py::arg("system"), py::arg("particles"), py::arg("free"),
+             py::arg("tables"), py::arg("times"));
   module.def("listed", &listed, py::arg("system"));
   module.def("starts", &starts, py::arg("system"), py::arg("trajectories"));
   module.def("omegas", &omegas, py::arg("system"));

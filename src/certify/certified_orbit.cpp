@@ -383,7 +383,7 @@ class CertifiedOrbit::Implementation {
 
 CertifiedOrbit::CertifiedOrbit(const ExactSystem& system, const CertifiedTask& task,
                                std::function<bool()> interrupted) {
-  if (system.table) refuse_scattering(*system.table, "guaranteed digits");
+  if (system.table) refuse_all_but_mirrors(*system.table, "guaranteed digits");
   implementation_ = std::make_unique<Implementation>(system, task, std::move(interrupted));
 }
 CertifiedOrbit::~CertifiedOrbit() = default;

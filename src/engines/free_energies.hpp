@@ -10,6 +10,7 @@
 
 #include "carom/base/twofold.hpp"
 #include "carom/events/energy.hpp"
+#include "carom/events/medium.hpp"
 #include "carom/events/observer.hpp"
 #include "carom/system/system.hpp"
 
@@ -19,8 +20,9 @@ namespace carom::engines {
 class FreeEnergies {
  public:
   /// `shared`: contacts pass energy on.
-  FreeEnergies(const std::vector<Particle>& particles, bool shared)
-      : particles_(particles),
+  FreeEnergies(const Table& table, const std::vector<Particle>& particles, bool shared)
+      : table_(table),
+        particles_(particles),
         shared_(shared),
         seen_(particles.size()),
         squares_(particles.size()),
@@ -45,6 +47,7 @@ class FreeEnergies {
   /// `particle`: its number in the system.
   void hit(int particle, const HitEvent& event) {
     if (shared_) return pass({{particle, event.before, event.after}});
+    if (!table_.regions.empty()) return see(particle, change_in_region(particle, event));
     Squares& squares = squares_[static_cast<std::size_t>(particle)];
     const double last = dot(event.after, event.after);
     squares.last = last;
@@ -92,6 +95,11 @@ class FreeEnergies {
     seen.change = change;
     seen.largest = larger(seen.largest, std::fabs(change));
   }
+  double change_in_region(int particle, const HitEvent& event) const {
+    const Particle& p = particles_[static_cast<std::size_t>(particle)];
+    const double speed = in_region(table_, p, region_of(table_, event.wall)).speed;
+    return 0.5 * p.mass * (dot(event.after, event.after) - speed * speed);
+  }
   /// Of a particle that shares its energy with none.
   double change_of_speed(int particle, double square) const {
     const Particle& p = particles_[static_cast<std::size_t>(particle)];
@@ -102,6 +110,7 @@ class FreeEnergies {
     return 0.5 * particles_[static_cast<std::size_t>(particle)].mass * dot(v, v);
   }
 
+  const Table& table_;
   const std::vector<Particle>& particles_;
   const bool shared_;
   bool begun_ = false, goes_on_ = false;

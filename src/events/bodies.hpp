@@ -23,7 +23,7 @@ inline constexpr Time never{std::numeric_limits<double>::infinity()};
 
 /// A particle. It flies freely, or belongs to a group.
 struct Body {
-  Particle particle;
+  Particle particle;  ///< as it is where it is: in its region
   geometry::EnergyShell<double> shell;
   State state;    ///< after its last event; out of date while a group holds it (Bodies::state)
   Flight flight;  ///< free: from that state on
@@ -39,6 +39,8 @@ struct Body {
   Time last_event;         ///< integrated: its last hit or start
   Time check = never;      ///< free: when another particle may be near at the earliest
   std::string report;
+  int region = -1;   ///< of the table; -1: outside of all
+  Particle outside;  ///< as it is there, of tables with regions
 };
 
 /// Bodies are numbered 0 … size-1. Each has one entry in the queue until it has ended.

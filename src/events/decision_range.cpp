@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "carom/events/medium.hpp"
 #include "carom/geometry/curve_frame.hpp"
 
 namespace carom {
@@ -80,8 +81,10 @@ std::string DecisionRange::fault(const Particle& p) const {
 
 std::string beyond_decisions(const Table& table, std::span<const Particle> particles) {
   const DecisionRange range(table);
+  const int regions = static_cast<int>(table.regions.size());
   for (const Particle& p : particles)
-    if (std::string s = range.fault(p); !s.empty()) return s;
+    for (int region = -1; region < regions; ++region)
+      if (std::string s = range.fault(in_region(table, p, region)); !s.empty()) return s;
   return "";
 }
 

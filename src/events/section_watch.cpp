@@ -25,7 +25,8 @@ SectionWatch::Seen& SectionWatch::seen(int index) {
 void SectionWatch::begin_run() {
   for (int i = 0; i < bodies_.size(); ++i) {
     const State s = bodies_.state(i);
-    if (!seen(i).begun) seen(i) = {true, in_plane(s.position, s.cell), s.velocity, s.time};
+    if (!seen(i).begun)
+      seen(i) = {true, in_plane(s.position, s.cell), s.velocity, s.time, bodies_[i].particle.omega};
   }
 }
 
@@ -45,13 +46,13 @@ void SectionWatch::watch_flight(int index, Time until, const Vector* end, Observ
   Seen& from = seen(index);
   const double duration = until - from.time;
   if (!(duration > 0.0)) return;
-  FreeFlight flight{from.position, from.velocity, bodies_[index].particle.omega, duration, {}};
+  FreeFlight flight{from.position, from.velocity, from.omega, duration, {}};
   const auto [position, velocity] =
       motion::moved(flight.position, flight.velocity, flight.omega, duration);
   flight.end = end ? *end : position;
   crossings(*surface_, flight, most_, found_);
   tell(index, from.time, observer);
-  from = {true, flight.end, velocity, until};
+  from = {true, flight.end, velocity, until, from.omega};
 }
 
 void SectionWatch::after_event(int index, Time when, Observer& observer) {
@@ -66,7 +67,7 @@ void SectionWatch::after_event(int index, Time when, Observer& observer) {
   const Vector here = in_plane(s.position, s.cell);
   watch_flight(index, s.time, &here, observer);
   Seen& now = seen(index);
-  if (now.time == s.time) now = {true, here, s.velocity, s.time};
+  if (now.time == s.time) now = {true, here, s.velocity, s.time, b.particle.omega};
 }
 
 void SectionWatch::watch_step(Group& group, Time until, Observer& observer) {

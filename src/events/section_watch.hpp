@@ -39,6 +39,7 @@ class SectionWatch {
     bool begun = false;
     geometry::Vector position, velocity;
     Time time;
+    double omega = 0.0;  ///< of the flight from there on
   };
   Seen& seen(int index);
   void watch_flight(int index, Time until, const geometry::Vector* end, Observer& observer);

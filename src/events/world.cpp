@@ -41,7 +41,7 @@ const Dynamics& without_other_walls(const Table& table, const Dynamics& dynamics
   if (!dynamics.everywhere && !has_discs(dynamics) &&
       (!dynamics.forces || dynamics.forces->empty()))
     return dynamics;
-  refuse_scattering(table, "forces, steps or hard discs");
+  refuse_all_but_mirrors(table, "forces, steps or hard discs");
   if (table::bezier_wall(table) != nullptr)
     throw InputError(Place{}, "forces beside Bézier curves are not there yet",
                      "walls of segments, circles and ellipses, or no forces");
@@ -51,6 +51,7 @@ const Dynamics& without_other_walls(const Table& table, const Dynamics& dynamics
 /// What free flights meet beyond the user's walls, or in their place; without walls if there is no
 /// such thing.
 Table walls_of_flights(const Table& table, const Dynamics& dynamics) {
+  if (!table.regions.empty()) return seen_from(table, -1);
   return has_discs(dynamics) ? table_of_discs(table, dynamics)
                              : table_with_supports(table, dynamics);
 }
@@ -65,7 +66,8 @@ class World::Implementation {
         scales(the_table),
         dynamics(without_other_walls(the_table, how)),
         own_walls(std::make_shared<const Table>(walls_of_flights(table, dynamics))),
-        flights(PieceTable(walls(), options), inside(), regions, bodies) {
+        flights(PieceTable(walls(), options), inside(), regions, bodies,
+                Media::of(table, options)) {
     if (has_discs(dynamics)) discs.emplace(table, dynamics, bodies, flights, watch, interrupt);
   }
   /// Of the same table and forces; what was prepared is shared.
@@ -74,12 +76,14 @@ class World::Implementation {
         scales(like.scales),
         dynamics(like.dynamics),
         own_walls(like.own_walls),
-        flights(like.flights.pieces(), inside(), regions, bodies) {
+        flights(like.flights.pieces(), inside(), regions, bodies, like.flights.media()) {
     if (has_discs(dynamics)) discs.emplace(table, dynamics, bodies, flights, watch, interrupt);
   }
 
   const Table& walls() const { return own_walls->walls.empty() ? table : *own_walls; }
-  const Table& inside() const { return has_discs(dynamics) ? walls() : table; }
+  const Table& inside() const {
+    return has_discs(dynamics) || !table.regions.empty() ? walls() : table;
+  }
 
   bool begin_run() {
     if (watch.active()) watch.begin_run();
@@ -196,6 +200,7 @@ int World::add(const Particle& particle, const State& state, std::uint64_t hits,
     if (const std::string fault = w.scales.fault(b.particle); !fault.empty())
       throw std::invalid_argument(fault);
   if (!integrated) {
+    w.flights.enter(b);
     if (rests && !w.discs)
       throw std::invalid_argument("the velocity is zero and no force acts there");
     w.flights.check_speed(b);

@@ -44,6 +44,8 @@ std::string why_not_stationary(const System& system) {
       return "they are listed";
   }
   if (lets_go(*system.table)) return "particles leave";
+  for (const Region& region : system.table->regions)
+    if (region.index != 1.0) return "they are uniform where a refractive index differs";
   const Dynamics& d = system.dynamics;
   if (!d.forces || d.forces->empty()) return {};
   if (system.particles.size() > 1 && (system.of_discs() || d.forces->interacts()))

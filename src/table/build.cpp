@@ -102,13 +102,19 @@ bool scatters(const Table& table) {
                      [](const Wall& wall) { return wall.specularity < 1.0; });
 }
 
-void refuse_scattering(const Table& table, const char* what) {
-  for (const Wall& wall : table.walls)
+void refuse_all_but_mirrors(const Table& table, const char* what) {
+  for (const Wall& wall : table.walls) {
     if (wall.specularity < 1.0)
       throw InputError(Place{"", 0, 0, "table.wall"},
                        "wall '" + wall.name + "' reflects at random, and there are no " + what +
                            " with such walls",
                        "law = \"specular\"");
+    if (wall.twin >= 0)
+      throw InputError(Place{"", 0, 0, "table.region"},
+                       "particles pass wall '" + wall.name + "' of a region, and there are no " +
+                           what + " with such walls",
+                       "no [[table.region]]");
+  }
 }
 
 std::vector<int> hole_numbers(const Table& table) {
@@ -148,6 +154,7 @@ Table build_table(const TableSpec& spec) {
   if (!table.walls.empty()) shapes::check_region(spec, table);
   shapes::refuse_misplaced(spec, table);
   shapes::add_holes(spec, table);
+  shapes::add_regions(spec, table);
   shapes::add_laws(spec, table);
   return table;
 }

@@ -131,9 +131,12 @@ void add_holes(const TableSpec& spec, Table& table) {
 
 void add_laws(const TableSpec& spec, Table& table) {
   for (const WallLawSpec& law : spec.laws) {
-    const int wall = law.wall.empty() ? -1 : named_wall(law.wall, law.wall_place, table);
+    const int named = law.wall.empty() ? -1 : named_wall(law.wall, law.wall_place, table);
+    if (named >= 0 && table.walls[static_cast<std::size_t>(named)].twin >= 0)
+      throw InputError(law.wall_place, "particles pass wall '" + law.wall + "' of a region",
+                       "the law of another wall");
     for (std::size_t k = 0; k < table.walls.size(); ++k)
-      if (wall < 0 || static_cast<std::size_t>(wall) == k)
+      if (named < 0 ? table.walls[k].twin < 0 : static_cast<std::size_t>(named) == k)
         table.walls[k].specularity = law.specularity.to_double();
   }
 }

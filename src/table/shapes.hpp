@@ -120,6 +120,10 @@ void add_obstacles(const TableSpec&, Shape&);
 /// Turns the holes' arc lengths into parameters.
 void add_holes(const TableSpec& spec, Table& table);
 void add_laws(const TableSpec& spec, Table& table);
+/// The wall of that name; InputError at the place where there is none.
+int named_wall(const std::string& name, const Place& place, const Table& table);
+/// Walls that particles pass get a twin each, which is seen from within.
+void add_regions(const TableSpec& spec, Table& table);
 
 /// Are arcs bent enough, ellipses thick and circles large enough for hits in doubles?
 /// docs/physics/exactness.md, Flat arcs and Thin walls.

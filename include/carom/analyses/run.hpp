@@ -136,7 +136,7 @@ struct SingleRunOptions {
   DecisionOptions decisions;
   std::vector<ParticleProgress> resume;  ///< empty: start afresh
   StepCounts steps;                      ///< of the part that is resumed
-  Evaluations evaluations;               ///< likewise
+  Evaluations evaluations;               ///< of the part that is resumed
   double seconds = 0, cpu_seconds = 0;   ///< of that part
   std::function<bool()>
       interrupted;  ///< asked between events, and while starts are drawn: SamplingStopped

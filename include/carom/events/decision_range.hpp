@@ -24,7 +24,7 @@ class DecisionRange {
   std::string bezier_;  ///< name of a wall that is a Bézier curve, or ""
 };
 
-/// The first fault of these particles in that table, or "".
+/// The first fault of these particles in that table and its regions, or "".
 std::string beyond_decisions(const Table&, std::span<const Particle>);
 
 }  // namespace carom

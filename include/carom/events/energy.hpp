@@ -34,7 +34,8 @@ struct Fields<EnergyError> {
       field("energy_error.end", "1",
             "Largest change of an energy until the end, relative to the largest kinetic energy",
             &EnergyError::end),
-      field("energy_error.largest", "1", "Largest change of an energy that was seen, likewise",
+      field("energy_error.largest", "1",
+            "Largest change of an energy that was seen, relative to the largest kinetic energy",
             &EnergyError::largest)};
 };
 

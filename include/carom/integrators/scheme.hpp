@@ -20,9 +20,9 @@ struct Scheme {
     listed,     ///< drifts and kicks by turns, all of them
     symmetric,  ///< the same, read forwards and backwards: the first halves; what the sums (1 each)
                 ///< leave is in the middle
-    verlets,    ///< steps kick 1/2, drift 1, kick 1/2 of lengths w h: the first half of the w,
-                ///< likewise
-    he,  ///< steps straight 1/2, kick 1/2, turn 1, kick 1/2, straight 1/2 of lengths w h, likewise
+    verlets,    ///< steps kick 1/2, drift 1, kick 1/2 of lengths w h: the first half of the w
+    he,  ///< steps straight 1/2, kick 1/2, turn 1, kick 1/2, straight 1/2 of lengths w h: the first
+         ///< half of the w
     spreiter_walter,  ///< no splitting: motion under a frozen force, see
                       ///< docs/physics/integrators.md
   };

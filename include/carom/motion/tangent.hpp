@@ -71,7 +71,7 @@ constexpr ReflectionTangent reflection_tangent(const geometry::Vector& normal, d
 struct ContactTangent {
   geometry::Vector separation;  ///< from the second's centre to the first's
   geometry::Vector approach;    ///< of the velocities before, first - second
-  geometry::Vector bend;        ///< of the accelerations by the field before, likewise
+  geometry::Vector bend;        ///< of the accelerations by the field before, first - second
   geometry::Vector push;        ///< first_share of it changes the first's velocity
   double first_share = 0.5, second_share = -0.5;
   double first_omega = 0.0, second_omega = 0.0;

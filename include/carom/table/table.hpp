@@ -30,6 +30,8 @@ struct Wall {
   int corner = 0;
   /// The share of hits that are mirrored; the others leave by Lambert's law (World::scatter_by).
   double specularity = 1.0;
+  /// The same piece of curve seen from the other side, of a wall between two regions; -1: none.
+  int twin = -1;
   std::vector<int> holes;  ///< indices into Table::holes, ordered by parameter
 };
 
@@ -37,11 +39,26 @@ struct Wall {
 /// cell of a lattice whose edges lead to the neighbouring cells.
 enum class Extent { bounded, open_plane, lattice };
 
+/// What is within a closed loop of walls that particles pass: another magnetic field, another
+/// potential or another refractive index (docs/physics/regions.md).
+struct Region {
+  /// Its walls as seen from within, one after the other in Table::walls, behind all that are seen
+  /// from outside.
+  int first = 0, count = 0;
+  std::optional<double> field;  ///< B; none: as outside
+  double index = 1.0;      ///< refractive index relative to the outside: the speed is speed/index
+  double potential = 0.0;  ///< an energy; outside it is 0
+  /// Which share of the hits is mirrored although they could pass: none, or that of a wave whose
+  /// amplitude is continuous, with its normal derivative (s) or that over index squared (p).
+  enum class Reflection : unsigned char { none, s, p } reflection = Reflection::none;
+};
+
 /// A billiard table: its walls, the holes on them, and the plane or lattice around.
 struct Table {
   std::string shape;
   std::vector<Wall> walls;
   std::vector<Hole> holes;
+  std::vector<Region> regions;
   Extent extent = Extent::bounded;
   std::optional<geometry::Lattice> lattice;  ///< set exactly when extent == lattice
   /// May walls cross? Not those of a table that was built; the edges of supports of forces do.
@@ -57,10 +74,15 @@ struct Table {
   int hole_index(const std::string& name) const;
 };
 
+/// The number of the region that a wall is seen from, -1: from outside of all.
+int region_of(const Table&, int wall);
+/// The walls that are seen from a region (-1: from outside of all), as a table of its own.
+Table seen_from(const Table&, int region);
+
 /// Do walls reflect at random?
 bool scatters(const Table&);
-/// Throws InputError if they do. `what`: cannot be had with such walls.
-void refuse_scattering(const Table&, const char* what);
+/// Throws InputError if they do, or if particles pass some. `what`: cannot be had with such walls.
+void refuse_all_but_mirrors(const Table&, const char* what);
 
 /// Area of the domain (of one cell for a lattice; infinity for the open plane), total length of the
 /// walls, and the mean flight pi A / L of the closed billiard without field.

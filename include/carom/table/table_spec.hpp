@@ -67,6 +67,15 @@ struct WallLawSpec {
   Place wall_place;
 };
 
+/// A region as the system file gives it.
+struct RegionSpec {
+  std::string wall;  ///< one of its walls
+  ExactNumber index, potential;
+  std::optional<ExactNumber> field;
+  std::string reflection;
+  Place place, wall_place;
+};
+
 /// The two vectors of a lattice.
 struct LatticeSpec {
   ExactPoint first, second;
@@ -96,6 +105,7 @@ struct TableSpec {
   std::vector<ObstacleSpec> obstacles;
   std::vector<HoleSpec> holes;
   std::vector<WallLawSpec> laws;  ///< the last that names a wall holds
+  std::vector<RegionSpec> regions;
   std::optional<LatticeSpec> lattice;
 };
 

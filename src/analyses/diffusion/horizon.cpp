@@ -55,7 +55,7 @@ Horizon horizon_of(const System& system) {
     case Extent::lattice:
       break;
   }
-  if (of_discs && !one_disc) return horizon;
+  if ((of_discs && !one_disc) || !table.regions.empty()) return horizon;
   std::vector<geometry::Curve> curves;
   for (const Wall& wall : table.walls) curves.push_back(wall.curve);
   horizon.corridors = geometry::free_corridors(*table.lattice, curves);

@@ -60,7 +60,7 @@ void refuse_no_exponents(const System& system) {
   if (is_integrated(system) && is_adaptive(system.dynamics.integrator.scheme))
     throw InputError(Place{"", 0, 0, "integrator.scheme"},
                      "deviations are not followed by adaptive schemes", "a scheme of fixed steps");
-  refuse_scattering(*system.table, "deviations");
+  refuse_all_but_mirrors(*system.table, "deviations");
   refuse_injections(system, "an ensemble whose deviations grow");
   if (system.run.spectrum) refuse_quasi_random(system, "a spectrum");
   if (system.run.spectrum && system.particles.size() > 1 && !act_on_each_other(system))

@@ -64,7 +64,7 @@ void check(const System& system, const OrbitSearchOptions& options) {
   if (const std::size_t fewest = fewest_hits(system); options.most_hits < fewest)
     refuse("--hits", fmt::format("no orbit has fewer than {} hits", fewest),
            fmt::format("a whole number from {}", fewest));
-  refuse_scattering(*system.table, "periodic orbits");
+  refuse_all_but_mirrors(*system.table, "periodic orbits");
   refuse_injections(system, "periodic orbits");
   if (options.expand_cycles && !(all_discs(*system.table) && system.particles.front().omega == 0.0))
     refuse("--zeta", "cycles are expanded where all orbits are known and unstable",

@@ -104,6 +104,9 @@ class ReturnsListener : public engines::EnsembleListener<ReturnsResult> {
 void refuse_impossible(const System& system) {
   const SectionPlan& plan = system.section;
   const Table& table = *system.table;
+  if (!table.regions.empty())
+    throw InputError(Place{"", 0, 0, "table.region"},
+                     "the expected time of returns knows no regions", "no [[table.region]]");
   if (!plan.boundary || plan.wall < 0)
     throw InputError(Place{"", 0, 0, "section.on"}, "returns are to a wall, and none is named",
                      "wall:NAME; carom table lists the walls");

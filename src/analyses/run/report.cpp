@@ -56,7 +56,8 @@ void add_end(Json& json, const System& system, const RunEnd& particle) {
 std::string trust_text(const System& system, const RunEnd& particle) {
   const Trust& trust = particle.trust;
   if (!trust.known)
-    return "not estimated where motion is integrated, discs meet or walls are Bézier curves";
+    return "not estimated where motion is integrated, discs meet, or walls are Bézier curves, "
+           "scatter or are passed";
   if (trust.open && trust.time == particle.progress.end)
     return fmt::format("to the end: errors below {} of the table's size",
                        system.run.trust_tolerance);

@@ -9,6 +9,7 @@
 #include "base/interrupt.hpp"
 #include "carom/base/error.hpp"
 #include "carom/base/stopwatch.hpp"
+#include "carom/events/medium.hpp"
 #include "carom/events/world.hpp"
 #include "carom/starts/injection.hpp"
 #include "carom/starts/sampler.hpp"
@@ -130,7 +131,7 @@ double speed_error(const Particle& particle, const State& state) {
 }
 
 // The state at the end of a particle that is not in the world any more: a flight after the last
-// event.
+// event. `particle`: as it flies there.
 State moved_on(const Particle& particle, const ParticleProgress& progress) {
   State state = progress.state;
   const double duration = progress.end - state.time;
@@ -224,7 +225,7 @@ class SingleRun {
     starts_known_ = !starts.empty();
     at_start_ = energies_of(
         [&](std::size_t body) { return starts.empty() ? state(body) : starts[number(body)]; });
-    free_.emplace(all_, shared_);
+    free_.emplace(*system_.table, all_, shared_);
     for (std::size_t body = 0; body < numbers_.size(); ++body) {
       const EnergyBalance& before = progress_[number(body)].energy;
       if (integrated_)
@@ -329,7 +330,10 @@ class SingleRun {
   /// The states of all particles at their ends.
   std::vector<State> last_states() const {
     std::vector<State> last(all_.size());
-    for (std::size_t p = 0; p < all_.size(); ++p) last[p] = moved_on(all_[p], progress_[p]);
+    for (std::size_t p = 0; p < all_.size(); ++p) {
+      const int region = region_of(*system_.table, progress_[p].state.wall);
+      last[p] = moved_on(in_region(*system_.table, all_[p], region), progress_[p]);
+    }
     for (std::size_t body = 0; body < numbers_.size(); ++body)
       last[number(body)] = world_.state_at(static_cast<int>(body), progress_[number(body)].end);
     return last;
@@ -355,7 +359,7 @@ class SingleRun {
         const double change = at_end[body].total() - at_start_[body].total();
         errors[p] = progress_[p].energy.error_at_end(before + change, at_end[body].kinetic);
       } else if (!shared_) {
-        const double error = speed_error(all_[p], last[p]);
+        const double error = speed_error(world_.particle(static_cast<int>(body)), last[p]);
         errors[p] = {error, larger(errors[p].largest, std::fabs(error))};
       }
     }
@@ -452,7 +456,7 @@ EnergyError energy_error_of(const SingleRunResult& result) {
 
 bool estimates_trust(const System& system) {
   return !system.dynamics.everywhere && !system.of_discs() && !scatters(*system.table) &&
-         table::bezier_wall(*system.table) == nullptr &&
+         system.table->regions.empty() && table::bezier_wall(*system.table) == nullptr &&
          (!system.dynamics.forces || system.dynamics.forces->empty());
 }
 

@@ -23,7 +23,7 @@ void check(const System& system, const SplittingPlan& plan) {
   const auto refuse = [](const char* key, const char* problem, const char* expected) {
     throw InputError(Place{{}, 0, 0, key}, problem, expected);
   };
-  refuse_scattering(*system.table, "populations");
+  refuse_all_but_mirrors(*system.table, "populations");
   refuse_injections(system, "splitting");
   refuse_quasi_random(system, "splitting");
   const bool forces = system.dynamics.forces && !system.dynamics.forces->empty();

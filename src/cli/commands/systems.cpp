@@ -21,8 +21,7 @@ int systems(const Options& options) {
       std::vector<std::string> names;
       for (const BuiltinSystem& s : all) names.emplace_back(s.name);
       throw InputError(Place{}, fmt::format("there is no built-in system '{}'", options.system),
-                       "a name that `carom systems` lists",
-                       nearest_name(options.system, names));
+                       "a name that `carom systems` lists", nearest_name(options.system, names));
     }
     if (!options.json) {
       print(std::string(found->toml));

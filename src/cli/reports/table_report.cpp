@@ -105,6 +105,18 @@ std::string table_text(const System& system, const TableMeasure& measured,
       text +=
           fmt::format("  wall '{}' mirrors a share {:.6g} of the hits; the others are diffuse\n",
                       wall.name, wall.specularity);
+  for (const Region& region : table.regions) {
+    const std::string& inner = table.walls[static_cast<std::size_t>(region.first)].name;
+    text += fmt::format("  region behind '{}': ", inner.substr(0, inner.rfind('.')));
+    if (region.potential != 0.0)
+      text += fmt::format("potential {:.6g}", region.potential);
+    else
+      text += fmt::format("index {:.6g}", region.index);
+    if (region.field) text += fmt::format(", B = {:.6g}", *region.field);
+    if (region.reflection != Region::Reflection::none)
+      text += region.reflection == Region::Reflection::s ? ", mirrors as s" : ", mirrors as p";
+    text += "\n";
+  }
   text += folded("  checked: that loops close, cross nowhere and lie apart, by exact signs") + "\n";
   if (!output.empty()) text += fmt::format("  drawing: {}\n", output);
   return text;

@@ -11,12 +11,15 @@ namespace carom::events {
 using geometry::Vector;
 
 FreeFlights::FreeFlights(const PieceTable& seen, const Table& inside, const ForceRegions& regions,
-                         Bodies& bodies)
+                         Bodies& bodies, std::shared_ptr<const Media> media)
     : finder_(seen),
       over_edges_(seen.discs_within && !seen.grid && !regions.by_range()),
       bodies_(bodies),
       regions_(regions),
+      media_(std::move(media)),
       inside_(inside) {
+  for (int r = 0; media_ && r < media_->size(); ++r)
+    media_of_table_.push_back({HitFinder(media_->pieces_of(r)), nullptr});
   scattering_.any = scatters(seen.table);
   const std::vector<Wall>& walls = seen.table.walls;
   for (std::size_t i = 0; i < walls.size(); ++i) {
@@ -31,7 +34,10 @@ FreeFlights::FreeFlights(const PieceTable& seen, const Table& inside, const Forc
 bool FreeFlights::apply_apart(int index, Time now, Observer& observer) {
   return apply(index, now, observer);
 }
-void FreeFlights::predict(int index) { predict(index, bodies_[index]); }
+void FreeFlights::predict(int index) {
+  if (bodies_[index].region >= 0) return predict_in_region(index);
+  predict(index, bodies_[index]);
+}
 void FreeFlights::schedule(int index) { schedule(index, bodies_[index]); }
 
 void FreeFlights::check_speed(const Body& b) const {
@@ -47,20 +53,20 @@ void FreeFlights::begin(Body& b) const {
   b.flight = Flight();
   b.flight.omega = b.particle.omega;
   b.flight.square_speed = b.particle.speed * b.particle.speed;
+  const PieceTable& pieces = pieces_of(b.region);
   if (b.state.wall >= 0) {
-    const auto [point, normal, square, k] = pieces().curve(b.state.wall).frame(b.state.u);
+    const int wall = b.state.wall - first_wall(b);
+    const auto [point, normal, square, k] = pieces.curve(wall).frame(b.state.u);
     // A state that went on from a hit keeps its point; any other starts at the image of u.
-    if (pieces().curve(b.state.wall).parameter(b.state.position) != b.state.u)
-      b.state.position = point;
+    if (pieces.curve(wall).parameter(b.state.position) != b.state.u) b.state.position = point;
     DecisionCounts unused;
-    if (pieces().inward(b.state.wall, b.state.u, b.state.velocity, normal, unused) !=
-        Sign::positive)
+    if (pieces.inward(wall, b.state.u, b.state.velocity, normal, unused) != Sign::positive)
       throw std::invalid_argument("the velocity does not point into the domain");
-    pieces().begin_on_wall(b.flight, b.state.wall, b.state.u, b.state.position, b.state.velocity);
+    pieces.begin_on_wall(b.flight, wall, b.state.u, b.state.position, b.state.velocity);
   } else {
     b.flight.start = b.state.position;
     b.flight.velocity = b.state.velocity;
-    pieces().begin(b.flight);
+    pieces.begin(b.flight);
   }
 }
 
@@ -110,6 +116,10 @@ void FreeFlights::put_on_edge(Body& b, Time now, const PieceTable::Landing& land
 
 bool FreeFlights::contains(Vector point) {
   if (pieces().surely_inside(point)) return true;
+  return outside_contains(point) || (media_ && place_in_region(point).region >= 0);
+}
+
+bool FreeFlights::outside_contains(Vector point) {
   if (!locator_) locator_ = std::make_unique<Locator>(inside_);
   return locator_->contains(point);
 }

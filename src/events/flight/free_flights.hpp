@@ -11,6 +11,7 @@
 
 #include "events/bodies.hpp"
 #include "events/flight/locator.hpp"
+#include "events/flight/media.hpp"
 #include "events/flight/next_hit.hpp"
 #include "events/step/force_regions.hpp"
 #include "motion/free_motion.hpp"
@@ -21,8 +22,9 @@ class FreeFlights {
  public:
   /// `pieces`: of the walls that flights meet. `inside`: the table, without edges of supports, that
   /// points are inside of.
+  /// `media`: the table's regions, null: it has none.
   FreeFlights(const PieceTable& pieces, const Table& inside, const ForceRegions& regions,
-              Bodies& bodies);
+              Bodies& bodies, std::shared_ptr<const Media> media);
 
   /// Applies what comes first for a free body. False if a flight does not go on by itself: the body
   /// is where forces act from now on, or is to be looked after because another body may be near.
@@ -42,8 +44,12 @@ class FreeFlights {
   /// Schedules what is known to come first on the flight.
   void schedule(int index);
 
-  /// Is the point strictly inside (exact)?
+  /// Is the point strictly inside (exact), or in a region?
   bool contains(geometry::Vector point);
+  /// Puts a body that has not flown yet into the region that its state is in. Its velocity may have
+  /// the length of the speed outside; then it gets that of the speed there.
+  void enter(Body& b);
+  const std::shared_ptr<const Media>& media() const { return media_; }
 
   /// As World::scatter_by.
   void scatter_by(std::uint64_t seed, std::uint64_t trajectory, std::vector<int> numbers) {
@@ -61,6 +67,26 @@ class FreeFlights {
  private:
   void predict(int index, Body& b);
   void schedule(int index, const Body& b);
+  // Of tables with regions (regions.cpp).
+  const PieceTable& pieces_of(int region) const {
+    return region < 0 ? pieces() : media_->pieces_of(region);
+  }
+  int first_wall(const Body& b) const { return media_ ? media_->first_wall(b.region) : 0; }
+  bool passes(const Body& b) const {
+    return b.region >= 0 || media_->twin(pieces().wall_of(b.ahead.piece)) >= 0;
+  }
+  void predict_in_region(int index);
+  void pass(int index, Time now, Observer& observer);
+  void put_into(Body& b, int region) const;
+  bool crosses(int index, Body& b, const PieceTable::Landing& landing);
+  /// In which region a point of the cell is, and the cell of that region's walls.
+  struct InRegion {
+    int region = -1;
+    geometry::Cell cell;
+    geometry::Vector position;  ///< in that cell
+  };
+  InRegion place_in_region(geometry::Vector point);
+  bool outside_contains(geometry::Vector point);
   geometry::Vector scattered(int index, const Body& b, const PieceTable::Landing& landing,
                              geometry::Vector mirrored);
   static void put_on_edge(Body& b, Time now, const PieceTable::Landing& landing);
@@ -76,6 +102,12 @@ class FreeFlights {
     std::uint64_t seed = 0, trajectory = 0;
     std::vector<int> numbers;  ///< of bodies; empty: their indices
   } scattering_;
+  const std::shared_ptr<const Media> media_;
+  struct Medium {
+    HitFinder finder;
+    std::unique_ptr<Locator> locator;
+  };
+  std::vector<Medium> media_of_table_;
   std::vector<int> corners_;  ///< order n of the corner at each wall's start, 0: none
   DecisionCounts counts_;
   const Table& inside_;
@@ -109,7 +141,8 @@ class FreeFlights {
       when = b.state.time;
       if (b.particle.omega != 0.0 && b.state.wall < 0)
         kind = EventKind::pinned;
-      else if (b.particle.omega == 0.0 && pieces().table.extent == Extent::open_plane)
+      else if (b.particle.omega == 0.0 && b.region < 0 &&
+               pieces().table.extent == Extent::open_plane)
         kind = EventKind::unbounded;
       else
         kind = EventKind::lost;
@@ -200,6 +233,8 @@ class FreeFlights {
     }
   if (b.ahead.kind == Ahead::Kind::cusp)
     return bodies_.end(index, Fate::singular, now, observer), true;
+  if (media_ != nullptr && passes(b)) [[unlikely]]
+    return pass(index, now, observer), true;
   PieceTable::Landing landing;
   pieces().land(b.flight, b.ahead, landing, counts_);
   if (regions_.is_edge(landing.wall)) [[unlikely]] {

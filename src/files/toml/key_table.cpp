@@ -62,6 +62,8 @@ const std::vector<KeyDescription>& key_table() {
        "closed walls inside the table or in the cell: [[table.obstacle]]"},
       {"table", "", "hole", "list of tables", "", "openings of walls: [[table.hole]]"},
       {"table", "", "wall", "list of tables", "", "how walls reflect: [[table.wall]]"},
+      {"table", "", "region", "list of tables", "",
+       "obstacles that particles pass: [[table.region]]"},
 
       {"table.obstacle", "", "shape", "string", "", "circle, ellipse or polygon"},
       {"table.obstacle", "circle|ellipse", "center", "point", "", "its centre"},
@@ -87,6 +89,17 @@ const std::vector<KeyDescription>& key_table() {
       {"table.wall", "mixed", "specularity", "number", "",
        "share of the hits that are mirrored; the others are diffuse"},
       {"table.wall", "", "wall", "string", "", "name of the wall; all walls if not given"},
+
+      {"table.region", "", "wall", "string", "", "a wall of the obstacle that particles pass"},
+      {"table.region", "", "B", "number", "",
+       "magnetic field within; that of the outside if not given"},
+      {"table.region", "", "potential", "number", "0",
+       "potential energy within; it is 0 outside, where particles have their speed"},
+      {"table.region", "", "index", "number", "1",
+       "refractive index within, relative to the outside: the speed is divided by it"},
+      {"table.region", "", "reflection", "string", "none",
+       "hits that are mirrored although they could pass: none; or at random as a wave, s or p "
+       "(Fresnel)"},
 
       {"table.loop", "", "start", "point", "",
        "where the first piece begins and the last must end"},
@@ -267,8 +280,8 @@ std::string key_table_markdown() {
   // There may be several of these, each under [[its name]].
   const auto heading = [](std::string_view section) {
     const bool list = section == "table.obstacle" || section == "table.hole" ||
-                      section == "table.wall" || section == "table.loop" ||
-                      section == "injection" || section == "potential";
+                      section == "table.wall" || section == "table.region" ||
+                      section == "table.loop" || section == "injection" || section == "potential";
     return list ? fmt::format("[[{}]]", section) : std::string(section);
   };
   std::string page;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include "files/toml/points_file.hpp"
@@ -47,6 +48,26 @@ WallLawSpec read_law(Value& value) {
     spec.wall = as_text(*wall);
     spec.wall_place = wall->place;
   }
+  return spec;
+}
+
+RegionSpec read_region(Value& value) {
+  TomlSection section(value, "table.region");
+  section.check_keys();
+  RegionSpec spec;
+  spec.place = value.place;
+  const Value& wall = section.get("wall");
+  spec.wall = as_text(wall);
+  spec.wall_place = wall.place;
+  spec.index = as_number(section.get("index"));
+  spec.potential = as_number(section.get("potential"));
+  if (const Value* field = section.find("B")) spec.field = as_number(*field);
+  const Value& reflection = section.get("reflection");
+  spec.reflection = as_text(reflection);
+  static const std::vector<std::string> words{"none", "s", "p"};
+  if (std::find(words.begin(), words.end(), spec.reflection) == words.end())
+    throw InputError(reflection.place, "unknown reflection '" + spec.reflection + "'",
+                     "one of " + listed(words), nearest_name(spec.reflection, words));
   return spec;
 }
 
@@ -233,6 +254,10 @@ TableSpec read_table(Value& root) {
   if (Value* laws = section.find("wall")) {
     as_sections(*laws, "wall = \"bottom\"");
     for (Value& law : laws->items) spec.laws.push_back(read_law(law));
+  }
+  if (Value* regions = section.find("region")) {
+    as_sections(*regions, "wall = \"obstacle_1\"");
+    for (Value& region : regions->items) spec.regions.push_back(read_region(region));
   }
   if (Value* lattice = root.find("lattice")) read_lattice(*lattice, spec);
   return spec;

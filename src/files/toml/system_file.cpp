@@ -8,6 +8,7 @@
 
 #include "carom/engines/choose_step.hpp"
 #include "carom/events/decision_range.hpp"
+#include "carom/events/medium.hpp"
 #include "carom/starts/injection.hpp"
 #include "carom/starts/sampler.hpp"
 #include "files/text_file.hpp"
@@ -75,6 +76,24 @@ void check_scales(const Value& root, const System& system, const Table& table) {
   if (fault.empty()) return;
   throw InputError(root.find("particles")->place, fault,
                    "other units, in which lengths, speeds and frequencies are nearer to 1");
+}
+
+// Where no particle can be, an obstacle does.
+void check_regions(const Value& root, const System& system, const Table& table) {
+  for (std::size_t r = 0; r < table.regions.size(); ++r) {
+    const Place& place = root.find("table")->find("region")->items[r].place;
+    if (!system.dynamics.forces->empty() || system.of_discs())
+      throw InputError(place, "forces and hard discs know no regions",
+                       "free particles, or no [[table.region]]");
+    for (const Particle& p : system.particles) {
+      if (!(p.speed > 0.0) || in_region(table, p, static_cast<int>(r)).speed > 0.0) continue;
+      throw InputError(place,
+                       "the potential " + files::shown(table.regions[r].potential) +
+                           " is not below the kinetic energy " +
+                           files::shown(0.5 * p.mass * p.speed * p.speed),
+                       "a lower potential, or an obstacle without a region");
+    }
+  }
 }
 
 // Bézier curves are met by straight flights alone, so far.
@@ -194,6 +213,7 @@ LoadedSystem read_system(std::string_view toml, const std::string& file,
   const ForceSpec forces = files::read_forces(root, system.particles.size());
   system.dynamics.forces = ForceField::build(forces, system.particles, table->lattice);
   check_beziers(root, system, *table);
+  check_regions(root, system, *table);
   check_scales(root, system, *table);
   const std::vector<double>& radii = system.dynamics.forces->disc_radii();
   for (std::size_t p = 0; p < radii.size(); ++p) system.particles[p].radius = radii[p];

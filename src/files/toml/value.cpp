@@ -56,10 +56,11 @@ std::string printed(const Value& value) {
   return quoted(value.text);
 }
 
-// [[table.hole]], [[table.wall]] and [[table.loop]] have headers of their own.
+// [[table.hole]], [[table.wall]], [[table.region]] and [[table.loop]] have headers of their own.
 bool has_headers(const std::string& section, const Entry& entry) {
   return section == "table" &&
-         (entry.key == "hole" || entry.key == "wall" || entry.key == "loop") &&
+         (entry.key == "hole" || entry.key == "wall" || entry.key == "region" ||
+          entry.key == "loop") &&
          entry.value.kind == Value::Kind::list && !entry.value.items.empty() &&
          std::all_of(entry.value.items.begin(), entry.value.items.end(),
                      [](const Value& v) { return v.kind == Value::Kind::table; });
