@@ -65,6 +65,7 @@ from .system import (
     mushroom,
     parametric,
     path,
+    plane,
     polar,
     polygon,
     rectangle,

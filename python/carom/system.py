@@ -9,7 +9,8 @@ from . import _carom, plot, toml
 from .errors import InputError, nearest, path_of, printable, text_of
 
 _KEYS = _carom.keys()
-_SECTIONS = {section.split(".")[0] for section, *_ in _KEYS if section} | {"initial", "table"}
+#: Sections of a system file, and the key above them.
+_SECTIONS = {section.split(".")[0] for section, *_ in _KEYS if section} | {"initial", "table", "title"}
 _SECTION_OF: dict[str, str] = {}
 for _section, _kind, _key, *_rest in _KEYS:
     if _section in ("field", "particles", "integrator", "run", "section"):
@@ -443,6 +444,14 @@ def parametric(x, y, start=None, end=None) -> System:
 def spline(points) -> System:
     """The smooth wall through the points, (points, 2), lengths: a periodic cubic spline."""
     return _shape("spline", points=points)
+
+
+def plane() -> System:
+    """The open plane without walls, for obstacles and potentials. Particles start at the origin, unless
+    `initial` says another."""
+    text = toml.section("table", {"shape": "plane"})
+    text += toml.section("initial", {"kind": "point", "position": [0, 0], "velocity": [1, 0]})
+    return System(text, "plane")._checked()
 
 
 def path(*loops) -> System:

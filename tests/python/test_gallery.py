@@ -10,7 +10,8 @@ GUIDE = pathlib.Path(__file__).parents[2] / "docs" / "guide"
 SCRIPTS = sorted((GUIDE / "gallery").glob("*.py"))
 # The sizes of the scripts, and what takes a moment. `./dev docs` runs the scripts as they are.
 SMALL = {
-    "trajectories=1_000_000": "trajectories=20_000", "trajectories=50_000": "trajectories=2000",
+    "trajectories=1_000_000": "trajectories=20_000", "trajectories=200_000": "trajectories=2000",
+    "trajectories=50_000": "trajectories=2000",
     "trajectories=40_000": "trajectories=400", '"count": 200': '"count": 20', "4, 200)": "4, 20)", "0.5, 200)": "0.5, 20)",
     "trajectories=20_000": "trajectories=400", "trajectories=5000": "trajectories=300",
     "trajectories=2000": "trajectories=200", "t_max=100)": "t_max=20)", "t_max=2000": "t_max=100",

@@ -4,6 +4,7 @@ import decimal
 import fractions
 import pickle
 
+import numpy
 import pytest
 
 import carom
@@ -94,3 +95,18 @@ def test_errors_say_where_and_what():
 def test_systems_are_pickled():
     table = carom.stadium().hole("top", center=1, width=0.1)
     assert pickle.loads(pickle.dumps(table)).to_toml() == table.to_toml()
+
+
+def test_regions_and_laws_of_walls():
+    box = carom.rectangle(4, 3).obstacle("circle", center=(2.1, 1.4), radius=0.7, name="disc")
+    glass = box.region("disc", index=1.5, reflection="s").with_(title="Glass")
+    assert glass.title == "Glass" and glass.walls[-2:] == ["disc", "disc.inside"]
+    run = carom.run(glass, position=(0.5, 1.4), velocity=(1, 0), collisions=2)
+    assert {"disc", "disc.inside"} & {glass.walls[hit["wall"]] for hit in run.hits}
+    field = box.region("disc", B=4)
+    path = carom.run(field, position=(2.1, 1.4), velocity=(0.5, 0), collisions=1, t_max=50).path()
+    assert numpy.hypot(path["x"] - 2.1, path["y"] - 1.4 + 0.125).round(9).tolist()[:2] == [0.125, 0.125]
+    rough = box.wall("mixed", wall="left", specularity=0.5).wall("diffuse", wall="disc")
+    assert "specularity = 0.5" in rough.to_toml()
+    with pytest.raises(carom.InputError, match="particles pass wall 'disc'"):
+        glass.wall("diffuse", wall="disc")
