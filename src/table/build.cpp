@@ -98,13 +98,16 @@ int Table::wall_index(const std::string& name) const {
 }
 
 bool scatters(const Table& table) {
-  return std::any_of(table.walls.begin(), table.walls.end(),
-                     [](const Wall& wall) { return wall.specularity < 1.0; });
+  return std::any_of(
+             table.walls.begin(), table.walls.end(),
+             [](const Wall& wall) { return wall.specularity < 1.0 || wall.roughness > 0.0; }) ||
+         std::any_of(table.holes.begin(), table.holes.end(),
+                     [](const Hole& hole) { return hole.transmission < 1.0; });
 }
 
 void refuse_all_but_mirrors(const Table& table, const char* what) {
   for (const Wall& wall : table.walls) {
-    if (wall.specularity < 1.0)
+    if (wall.specularity < 1.0 || wall.roughness > 0.0)
       throw InputError(Place{"", 0, 0, "table.wall"},
                        "wall '" + wall.name + "' reflects at random, and there are no " + what +
                            " with such walls",
@@ -115,6 +118,12 @@ void refuse_all_but_mirrors(const Table& table, const char* what) {
                            what + " with such walls",
                        "no [[table.region]]");
   }
+  for (const Hole& hole : table.holes)
+    if (hole.transmission < 1.0)
+      throw InputError(Place{"", 0, 0, "table.hole"},
+                       "hole '" + hole.name + "' lets pass at random, and there are no " + what +
+                           " with such holes",
+                       "transmission = 1");
 }
 
 std::vector<int> hole_numbers(const Table& table) {

@@ -72,7 +72,7 @@ class Opening {
                        "a wider hole");
     }
     table_.walls[wall_index()].holes.push_back(static_cast<int>(table_.holes.size()));
-    table_.holes.push_back({name_, wall_, from, to});
+    table_.holes.push_back({name_, wall_, from, to, hole_.transmission});
   }
 
   const HoleSpec& hole_;
@@ -136,8 +136,10 @@ void add_laws(const TableSpec& spec, Table& table) {
       throw InputError(law.wall_place, "particles pass wall '" + law.wall + "' of a region",
                        "the law of another wall");
     for (std::size_t k = 0; k < table.walls.size(); ++k)
-      if (named < 0 ? table.walls[k].twin < 0 : static_cast<std::size_t>(named) == k)
-        table.walls[k].specularity = law.specularity.to_double();
+      if (named < 0 ? table.walls[k].twin < 0 : static_cast<std::size_t>(named) == k) {
+        table.walls[k].specularity = law.specularity;
+        table.walls[k].roughness = law.roughness;
+      }
   }
 }
 

@@ -36,9 +36,11 @@ class Hits : public Observer {
     in.push_back(cross(normal, e.before) / speed);
     out.push_back(cross(normal, e.after) / speed);
     flights.push_back(e.flight_time);
+    at.push_back(e.wall == 0 && std::fabs(e.position.x) < 0.25);
     worst_speed = std::max(worst_speed, std::fabs(speed - 1.0));
   }
   std::vector<double> in, out, flights;
+  std::vector<bool> at;  // in the middle of the first wall
   double worst_speed = 0.0;
 
  private:
@@ -106,6 +108,36 @@ TEST(Scattering, OfOneWallLeavesTheOthersMirrors) {
     same += std::fabs(seen.in[i] - seen.out[i]) < 1e-12;
   EXPECT_GT(same, seen.in.size() / 2);
   EXPECT_LT(same, seen.in.size());
+}
+
+TEST(Scattering, OfRoughWallsTurnsTheNormalByTheAngle) {
+  const System system = system_of(stadium + "[[table.wall]]\nlaw = \"rough\"\nangle = 0.1\n" +
+                                  "[run]\nt_max = 200\ntrajectories = 50\n");
+  const Hits seen = hits_of(system);
+  double square = 0.0, most = 0.0, n = 0.0;
+  for (std::size_t i = 0; i < seen.in.size(); ++i) {
+    if (std::fabs(seen.in[i]) > 0.9) continue;  // far from grazing no number is tried again
+    const double turned = std::asin(seen.out[i]) - std::asin(seen.in[i]);
+    square += turned * turned;
+    most = std::max(most, std::fabs(turned));
+    n += 1.0;
+  }
+  EXPECT_NEAR(square / n, 0.04 / 3.0, 4.0 * 0.012 / std::sqrt(n));
+  EXPECT_LE(most, 0.2 + 1e-12);
+  EXPECT_LT(seen.worst_speed, 1e-14);
+}
+
+TEST(Scattering, OfAHoleLetsItsSharePass) {
+  const std::string hole = stadium +
+                           "[[table.hole]]\nwall = \"bottom\"\ncenter = 1\nwidth = 0.5\n"
+                           "transmission = 0.25\n[run]\nt_max = 2000\ntrajectories = 4000\n";
+  const System system = system_of(hole);
+  const Hits seen = hits_of(system);
+  double mirrored = 0.0;
+  for (std::size_t i = 0; i < seen.at.size(); ++i) mirrored += seen.at[i];
+  // Each particle is mirrored there until it passes: 3 times in the mean, +- sqrt(12).
+  EXPECT_NEAR(mirrored / 4000.0, 3.0, 4.0 * std::sqrt(12.0 / 4000.0));
+  EXPECT_THROW(run_lyapunov(system), InputError);
 }
 
 TEST(Scattering, GivesOneDigestHoweverTheWorkIsShared) {

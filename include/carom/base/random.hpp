@@ -15,7 +15,8 @@ enum class Purpose : std::uint64_t {
   swap_test = 6,
   arrangement = 7,
   quasi_random = 8,
-  scattering = 9
+  scattering = 9,
+  transmission = 10
 };
 
 /// Philox4x64-10 (Salmon et al. 2011) with key (seed, purpose) and counter

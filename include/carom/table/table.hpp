@@ -18,6 +18,7 @@ struct Hole {
   std::string name;
   int wall = 0;
   double from = 0.0, to = 0.0;
+  double transmission = 1.0;  ///< the share of hits that pass; the others are those of its wall
 };
 
 /// An oriented piece of curve with the domain on its left.
@@ -30,6 +31,8 @@ struct Wall {
   int corner = 0;
   /// The share of hits that are mirrored; the others leave by Lambert's law (World::scatter_by).
   double specularity = 1.0;
+  /// Mirrored at a normal that is turned by a random angle, uniform from -roughness to roughness.
+  double roughness = 0.0;
   /// The same piece of curve seen from the other side, of a wall between two regions; -1: none.
   int twin = -1;
   std::vector<int> holes;  ///< indices into Table::holes, ordered by parameter
@@ -79,7 +82,7 @@ int region_of(const Table&, int wall);
 /// The walls that are seen from a region (-1: from outside of all), as a table of its own.
 Table seen_from(const Table&, int region);
 
-/// Do walls reflect at random?
+/// Is what happens at a wall random?
 bool scatters(const Table&);
 /// Throws InputError if they do, or if particles pass some. `what`: cannot be had with such walls.
 void refuse_all_but_mirrors(const Table&, const char* what);

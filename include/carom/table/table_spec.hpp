@@ -40,6 +40,7 @@ struct HoleSpec {
   std::string wall = {};
   ExactNumber center, width;  ///< arc lengths along the wall
   std::string name = {};      ///< "" : hole_1, hole_2 …
+  double transmission = 1.0;  ///< Hole::transmission
   Place place = {}, wall_place = {};
 };
 
@@ -62,8 +63,9 @@ struct ObstacleSpec {
 
 /// How a wall reflects, as the system file gives it.
 struct WallLawSpec {
-  std::string wall;         ///< "" : all walls
-  ExactNumber specularity;  ///< Wall::specularity
+  std::string wall;          ///< "" : all walls
+  double specularity = 1.0;  ///< Wall::specularity
+  double roughness = 0.0;    ///< Wall::roughness
   Place wall_place;
 };
 

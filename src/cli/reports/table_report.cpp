@@ -97,14 +97,21 @@ std::string table_text(const System& system, const TableMeasure& measured,
     text += fmt::format("  and {} more; --verbose prints all\n", table.walls.size() - shown);
   for (const Hole& hole : table.holes) {
     const auto [from, to] = measure_hole(table, hole);
-    text += fmt::format("  hole '{}' in '{}': arc length {:.9g} to {:.9g}\n", hole.name,
+    text += fmt::format("  hole '{}' in '{}': arc length {:.9g} to {:.9g}", hole.name,
                         table.walls[static_cast<std::size_t>(hole.wall)].name, from, to);
+    if (hole.transmission < 1.0)
+      text += fmt::format(", lets pass a share {:.6g}", hole.transmission);
+    text += "\n";
   }
   for (const Wall& wall : table.walls)
     if (wall.specularity < 1.0)
       text +=
           fmt::format("  wall '{}' mirrors a share {:.6g} of the hits; the others are diffuse\n",
                       wall.name, wall.specularity);
+  for (const Wall& wall : table.walls)
+    if (wall.roughness > 0.0)
+      text += fmt::format("  wall '{}' is rough: its normal is turned by up to {:.6g}\n", wall.name,
+                          wall.roughness);
   for (const Region& region : table.regions) {
     const std::string& inner = table.walls[static_cast<std::size_t>(region.first)].name;
     text += fmt::format("  region behind '{}': ", inner.substr(0, inner.rfind('.')));

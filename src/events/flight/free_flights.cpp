@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "base/index.hpp"
-#include "carom/base/random.hpp"
+#include "carom/base/elementary.hpp"
 
 namespace carom::events {
 
@@ -78,24 +78,41 @@ void FreeFlights::begin_on_wall(Body& b, int wall, double u) const {
   pieces().begin_on_wall(b.flight, wall, u, b.state.position, b.state.velocity);
 }
 
+RandomStream::Block FreeFlights::words_of(int index, const Body& b, Purpose purpose) const {
+  const int number = scattering_.numbers.empty() ? index : scattering_.numbers[base::at(index)];
+  RandomStream::Block words;
+  RandomStream::block(scattering_.seed, purpose, scattering_.trajectory,
+                      static_cast<std::uint64_t>(number), b.hits, words);
+  return words;
+}
+
+bool FreeFlights::lets_pass(int index, const Body& b, int hole) const {
+  const double share = pieces().table.holes[base::at(hole)].transmission;
+  return !(share < 1.0) ||
+         RandomStream::uniform(words_of(index, b, Purpose::transmission)[0]) < share;
+}
+
 /// By Lambert's law the sine of the angle to the normal is uniform (docs/physics/scattering.md).
 /// Where the velocity is not one into the domain, as at a corner, the next two numbers are tried.
 Vector FreeFlights::scattered(int index, const Body& b, const PieceTable::Landing& landing,
                               Vector mirrored) {
-  const double specularity = pieces().table.walls[base::at(landing.wall)].specularity;
-  if (!(specularity < 1.0)) return mirrored;
-  const int number = scattering_.numbers.empty() ? index : scattering_.numbers[base::at(index)];
-  RandomStream::Block words;
-  RandomStream::block(scattering_.seed, Purpose::scattering, scattering_.trajectory,
-                      static_cast<std::uint64_t>(number), b.hits, words);
-  if (RandomStream::uniform(words[0]) < specularity) return mirrored;
+  const Wall& wall = pieces().table.walls[base::at(landing.wall)];
+  const bool rough = wall.roughness > 0.0;
+  if (!(wall.specularity < 1.0) && !rough) return mirrored;
+  const RandomStream::Block words = words_of(index, b, Purpose::scattering);
+  if (!rough && RandomStream::uniform(words[0]) < wall.specularity) return mirrored;
   const Vector inward =
       (1.0 / std::sqrt(dot(landing.at.normal, landing.at.normal))) * landing.at.normal;
   for (std::size_t i = 1; i < words.size(); ++i) {
-    const double sine = RandomStream::symmetric(words[i]);
-    const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
-    const Vector way = sine * geometry::right(inward) + cosine * inward;
-    const Vector velocity = b.particle.speed * way;
+    const double random = RandomStream::symmetric(words[i]);
+    Vector velocity;
+    if (rough) {
+      const auto [sine, cosine] = elementary::sincos(2.0 * wall.roughness * random);
+      velocity = cosine * mirrored + sine * geometry::left(mirrored);
+    } else {
+      const double cosine = std::sqrt((1.0 - random) * (1.0 + random));
+      velocity = b.particle.speed * (random * geometry::right(inward) + cosine * inward);
+    }
     const Vector after = (1.0 + geometry::step_to_energy_shell(velocity, b.shell)) * velocity;
     if (pieces().inward(landing.wall, *landing.curve, landing.at.u, after, landing.at.normal,
                         counts_) == Sign::positive)

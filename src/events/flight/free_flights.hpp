@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "carom/base/random.hpp"
 #include "events/bodies.hpp"
 #include "events/flight/locator.hpp"
 #include "events/flight/media.hpp"
@@ -78,6 +79,8 @@ class FreeFlights {
   void predict_in_region(int index);
   void pass(int index, Time now, Observer& observer);
   void put_into(Body& b, int region) const;
+  RandomStream::Block words_of(int index, const Body& b, Purpose purpose) const;
+  bool lets_pass(int index, const Body& b, int hole) const;
   bool crosses(int index, Body& b, const PieceTable::Landing& landing);
   /// In which region a point of the cell is, and the cell of that region's walls.
   struct InRegion {
@@ -246,7 +249,7 @@ class FreeFlights {
     for (const int h : pieces().table.walls[static_cast<std::size_t>(landing.wall)].holes)
       if (pieces().table.holes[static_cast<std::size_t>(h)].from == 0.0) landing.hole = h;
   }
-  if (landing.hole >= 0) {
+  if (landing.hole >= 0 && (!scattering_.any || lets_pass(index, b, landing.hole))) {
     b.hole = landing.hole;
     return bodies_.end(index, Fate::escaped, now, observer), true;
   }

@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "base/index.hpp"
-#include "carom/base/random.hpp"
 #include "carom/events/medium.hpp"
 #include "events/flight/free_flights.hpp"
 
@@ -96,10 +95,7 @@ bool FreeFlights::crosses(int index, Body& b, const PieceTable::Landing& landing
         second /= there * there;
       }
       const double amplitude = (first - second) / (first + second);
-      const int number = scattering_.numbers.empty() ? index : scattering_.numbers[at(index)];
-      RandomStream::Block words;
-      RandomStream::block(scattering_.seed, Purpose::scattering, scattering_.trajectory,
-                          static_cast<std::uint64_t>(number), b.hits, words);
+      const RandomStream::Block words = words_of(index, b, Purpose::scattering);
       if (RandomStream::uniform(words[0]) < amplitude * amplitude) return false;
     }
     after = (next_speed / there) * (tangential * along - beyond_normal * inward);

@@ -82,12 +82,16 @@ const std::vector<KeyDescription>& key_table() {
        "arc length from the wall's start to the hole's centre"},
       {"table.hole", "", "width", "number", "", "arc length of the hole"},
       {"table.hole", "", "name", "string", "", "a name; hole_1, hole_2 … if not given"},
+      {"table.hole", "", "transmission", "number", "1",
+       "share of the hits that pass, at random; the others are those of the wall"},
 
       {"table.wall", "", "law", "string", "",
-       "specular; diffuse: by Lambert's law, the sine of the angle to the normal uniform; or "
-       "mixed"},
+       "specular; diffuse: by Lambert's law, the sine of the angle to the normal uniform; mixed; "
+       "or rough"},
       {"table.wall", "mixed", "specularity", "number", "",
        "share of the hits that are mirrored; the others are diffuse"},
+      {"table.wall", "rough", "angle", "angle", "",
+       "the normal is turned by a random angle, uniform from -angle to angle"},
       {"table.wall", "", "wall", "string", "", "name of the wall; all walls if not given"},
 
       {"table.region", "", "wall", "string", "", "a wall of the obstacle that particles pass"},

@@ -16,6 +16,13 @@ const std::vector<std::string>& shapes() {
   return names;
 }
 
+double share_of(const Value& given) {
+  const double share = as_number(given).to_double();
+  if (!(share >= 0.0 && share <= 1.0))
+    throw InputError(given.place, "a share is not below 0 nor above 1", "a number from 0 to 1");
+  return share;
+}
+
 HoleSpec read_hole(Value& value, std::size_t index) {
   TomlSection section(value, "table.hole");
   section.check_keys();
@@ -26,23 +33,27 @@ HoleSpec read_hole(Value& value, std::size_t index) {
   hole.wall_place = wall.place;
   hole.center = as_number(section.get("center"));
   hole.width = as_number(section.get("width"));
+  hole.transmission = share_of(section.get("transmission"));
   const std::string name = "hole_" + std::to_string(index + 1);
   hole.name = as_name(section.fill("name", text_value(name, section.place_of("name"))));
   return hole;
 }
 
 WallLawSpec read_law(Value& value) {
-  const std::string law = read_kind(value, "table.wall", "law", {"specular", "diffuse", "mixed"});
+  const std::string law =
+      read_kind(value, "table.wall", "law", {"specular", "diffuse", "mixed", "rough"});
   TomlSection section(value, "table.wall", law);
   section.check_keys();
   WallLawSpec spec;
-  spec.specularity = ExactNumber(law == "specular" ? 1.0 : 0.0);
-  if (law == "mixed") {
-    const Value& given = section.get("specularity");
-    spec.specularity = as_number(given);
-    const double share = spec.specularity.to_double();
-    if (!(share >= 0.0 && share <= 1.0))
-      throw InputError(given.place, "a share is not below 0 nor above 1", "a number from 0 to 1");
+  spec.specularity = law == "specular" || law == "rough" ? 1.0
+                     : law == "mixed"                    ? share_of(section.get("specularity"))
+                                                         : 0.0;
+  if (law == "rough") {
+    const Value& angle = section.get("angle");
+    spec.roughness = as_angle(angle).to_double();
+    if (!(spec.roughness > 0.0 && spec.roughness < 1.5707963267948966))
+      throw InputError(angle.place, "a wall's normal is turned by less than a right angle",
+                       "an angle above 0 and below pi/2");
   }
   if (const Value* wall = section.find("wall")) {
     spec.wall = as_text(*wall);
