@@ -36,8 +36,8 @@ int compare(const AlgebraicRoot& a, const AlgebraicRoot& b);
 int compare(const AlgebraicRoot& a, const mpq_class& b);
 /// Sign of another polynomial at the root.
 int sign_at(const Polynomial& polynomial, const AlgebraicRoot& root);
-/// c / p(x) at a root x, p(x) != 0.
-AlgebraicRoot quotient_at(const Dyadic& c, const Polynomial& p, const AlgebraicRoot& x);
+/// p(x) / q(x) at a root x, q(x) != 0.
+AlgebraicRoot quotient_at(const Polynomial& p, const Polynomial& q, const AlgebraicRoot& x);
 /// The nearest double, or nearly.
 double approximate(const AlgebraicRoot& root);
 

@@ -9,6 +9,26 @@ namespace carom::geometry {
 
 namespace {
 
+/// a . (x(u) - start) times start.w, as a polynomial in u.
+Polynomial form_of(const FlightAtCurve& l, const DyadicVector& a) {
+  Polynomial f;
+  for (const DyadicVector& x : l.curve.power) f.push_back(l.start.w * dot(a, x));
+  f[0] = f[0] - dot(a, DyadicVector{l.start.x, l.start.y});
+  return f;
+}
+/// |x(u) - start|^2 times start.w^2.
+Polynomial square_of(const FlightAtCurve& l) {
+  const Polynomial x = form_of(l, {Dyadic(1), Dyadic(0)}), y = form_of(l, {Dyadic(0), Dyadic(1)});
+  return plus(times(x, x), times(y, y));
+}
+/// The side of the flight on which x(u) lies, times a positive factor: 2 v x d + omega d.d,
+/// d = x(u) - start; without field v x d.
+Polynomial side_of(const FlightAtCurve& l) {
+  const Polynomial g = form_of(l, left(l.v));
+  if (l.omega.sign() == 0) return g;
+  return plus(times(Dyadic(2) * l.start.w, g), times(l.omega, square_of(l)));
+}
+
 /// p / (u - at), at a root.
 Polynomial without_root(const Polynomial& p, const Dyadic& at) {
   Polynomial q(p.size() - 1);
@@ -17,22 +37,35 @@ Polynomial without_root(const Polynomial& p, const Dyadic& at) {
   return q;
 }
 
-/// Crossing of the line at a root, if it lies ahead.
-void add(std::vector<Crossing>& found, const LineAtCurve& l, const Polynomial& along,
-         const AlgebraicRoot& u) {
-  if (sign_at(along, u) <= 0) return;
-  Crossing k;
-  // kappa = 1 / t, t = v.(x - P) / |v|^2.
-  k.root = quotient_at(l.start.w * dot(l.v, l.v), along, u);
-  k.place = u;
-  found.push_back(std::move(k));
-}
+/// Finds the crossings at roots that lie ahead.
+class Crossings {
+ public:
+  explicit Crossings(const FlightAtCurve& l)
+      : straight_(l.omega.sign() == 0),
+        along_(form_of(l, l.v)),
+        square_(straight_ ? Polynomial{l.start.w * dot(l.v, l.v)} : square_of(l)) {
+    if (!straight_) along_ = times(l.start.w, along_);
+  }
+  void add(const AlgebraicRoot& u) {
+    if (straight_ && sign_at(along_, u) <= 0) return;
+    Crossing k;
+    // Without field kappa = |v|^2 / (v.d), which is 1/t; in a field v.d / d.d.
+    k.root = straight_ ? quotient_at(square_, along_, u) : quotient_at(along_, square_, u);
+    k.place = u;
+    found.push_back(std::move(k));
+  }
+  std::vector<Crossing> found;
 
-/// Calls visit(root, sign of g just before it, multiplicity) for each root of
-/// g = v x (x(u) - start) in (0, 1] at which the particle does not stand, ascending.
+ private:
+  bool straight_;
+  Polynomial along_, square_;  // of d; without field |v|^2
+};
+
+/// Calls visit(root, sign of the side just before it, multiplicity) for each root of the side in
+/// (0, 1] at which the particle does not stand, ascending.
 template <class Visit>
-void roots_of(const LineAtCurve& l, const Visit& visit) {
-  Polynomial g = form_of(l.curve, left(l.v), l.start);
+void roots_of(const FlightAtCurve& l, const Visit& visit) {
+  Polynomial g = side_of(l);
   for (const Dyadic& u : l.known) g = without_root(g, u);
   while (!g.empty() && g.back().sign() == 0) g.pop_back();
   if (g.size() < 2 || keeps_sign_in_unit(g)) return;
@@ -50,49 +83,38 @@ void roots_of(const LineAtCurve& l, const Visit& visit) {
 
 }  // namespace
 
-Polynomial form_of(const ExactCurve& c, const DyadicVector& a, const ExactPoint& p) {
-  Polynomial f;
-  for (const DyadicVector& x : c.power) f.push_back(p.w * dot(a, x));
-  f[0] = f[0] - dot(a, DyadicVector{p.x, p.y});
-  return f;
-}
-
-std::vector<Crossing> exits(const LineAtCurve& l) {
-  std::vector<Crossing> found;
-  const Polynomial along = form_of(l.curve, l.v, l.start);
+std::vector<Crossing> exits(const FlightAtCurve& l) {
+  Crossings crossings(l);
   roots_of(l, [&](const AlgebraicRoot& u, int before, int multiplicity) {
-    if (before < 0 && multiplicity % 2 != 0) add(found, l, along, u);
+    if (before < 0 && multiplicity % 2 != 0) crossings.add(u);
   });
-  std::sort(found.begin(), found.end(),
+  std::sort(crossings.found.begin(), crossings.found.end(),
             [](const Crossing& a, const Crossing& b) { return compare(a, b) > 0; });
-  return found;
+  return crossings.found;
 }
 
-std::vector<Crossing> touches(const LineAtCurve& l) {
-  std::vector<Crossing> found;
-  const Polynomial along = form_of(l.curve, l.v, l.start);
+std::vector<Crossing> touches(const FlightAtCurve& l) {
+  Crossings crossings(l);
   roots_of(l, [&](const AlgebraicRoot& u, int, int multiplicity) {
-    if (multiplicity % 2 == 0 && compare(u, mpq_class(1)) < 0) add(found, l, along, u);
+    if (multiplicity % 2 == 0 && compare(u, mpq_class(1)) < 0) crossings.add(u);
   });
-  return found;
+  return crossings.found;
 }
 
-AroundEnd around_end(const ExactCurve& c, bool at_end, const DyadicVector& v) {
-  const DyadicVector tangent = c.direction_at(at_end ? -1.0 : 0.0);
-  if (const int across = cross(tangent, v).sign(); across != 0) return {-across, across, false};
-  // The curve leaves its tangent to the left by u^k times this, u counted from the end.
-  std::vector<DyadicVector> power = c.power;
-  if (at_end)
-    for (std::size_t i = 0; i + 1 < power.size(); ++i)
-      for (std::size_t k = power.size() - 1; k-- > i;) power[k] = power[k] + power[k + 1];
-  for (std::size_t k = 2; k < power.size(); ++k) {
-    const int bend = cross(tangent, power[k]).sign();
-    if (bend == 0) continue;
-    const int ahead = -bend, behind = k % 2 == 0 ? -bend : bend;
-    const bool forwards = dot(tangent, v).sign() > 0;
-    return {forwards ? behind : ahead, forwards ? ahead : behind, true};
-  }
-  return {0, 0, true};
+AroundEnd around_end(const FlightAtCurve& l, bool at_end, const DyadicVector& velocity) {
+  Polynomial g = side_of(l);
+  if (at_end)  // in powers of u - 1
+    for (std::size_t i = 0; i + 1 < g.size(); ++i)
+      for (std::size_t k = g.size() - 1; k-- > i;) g[k] = g[k] + g[k + 1];
+  std::size_t order = 1;
+  while (order < g.size() && g[order].sign() == 0) ++order;
+  if (order == g.size()) return {0, 0, true};
+  const int after = g[order].sign(), before = order % 2 == 0 ? after : -after;
+  if (order == 1) return {after, before, false};
+  // Side by side: where the curve is on the flight's left, the flight is on its right if they run
+  // the same way, else on its left, and comes from where the curve goes.
+  const bool forwards = dot(l.curve.direction_at(at_end ? -1.0 : 0.0), velocity).sign() > 0;
+  return forwards ? AroundEnd{-before, -after, true} : AroundEnd{after, before, true};
 }
 
 }  // namespace carom::geometry

@@ -1,5 +1,4 @@
-// A straight flight and a Bézier curve in exact numbers: crossings are roots in u, compared by
-// kappa.
+// A flight and a Bézier curve in exact numbers: crossings are roots in u, compared by kappa.
 #pragma once
 
 #include <vector>
@@ -10,27 +9,26 @@
 namespace carom::geometry {
 
 /// The flight as one piece sees it; `known`: parameters at which the particle stands on it.
-struct LineAtCurve {
+struct FlightAtCurve {
   const ExactCurve& curve;
   ExactPoint start;
   DyadicVector v;
+  Dyadic omega;
   std::vector<Dyadic> known;
 };
 
-/// Where the line leaves the domain, by falling kappa; a joint on the line counts as on its left.
-std::vector<Crossing> exits(const LineAtCurve&);
+/// Where the flight leaves the domain, by falling kappa; a joint on it counts as on its left.
+std::vector<Crossing> exits(const FlightAtCurve&);
 /// Where it is tangent to the curve without crossing it.
-std::vector<Crossing> touches(const LineAtCurve&);
+std::vector<Crossing> touches(const FlightAtCurve&);
 
-/// a . (x(u) - p) times p.w, as a polynomial in u.
-Polynomial form_of(const ExactCurve& curve, const DyadicVector& a, const ExactPoint& p);
-
-/// On which side of the curve, which goes on beyond its end, a line along v through that end runs
-/// just before and after it: 1 left, -1 right, 0 along a straight curve.
+/// On which side of a curve, which goes on beyond its end, a flight through that end runs just
+/// before and after it: 1 left, -1 right, 0 along it.
 struct AroundEnd {
   int before, after;
   bool tangent;
 };
-AroundEnd around_end(const ExactCurve& curve, bool at_end, const DyadicVector& v);
+/// `velocity`: of the flight when it is there, or a positive multiple of it.
+AroundEnd around_end(const FlightAtCurve&, bool at_end, const DyadicVector& velocity);
 
 }  // namespace carom::geometry

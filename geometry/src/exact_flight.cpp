@@ -128,8 +128,8 @@ std::vector<Crossing> ExactFlight::Data::touches(int piece, Cell cell, bool star
 
 AroundEnd ExactFlight::Data::around(int piece, bool at_end, Cell cell, const Crossing& k) const {
   const ExactCurve& c = curve(piece);
-  if (c.bezier()) return around_end(c, at_end, v);
   const View s = view(piece, cell);
+  if (c.bezier()) return around_end(at_curve(c, s, false, false), at_end, velocity_at(k));
   Polynomial f;
   if (needs_quartic(c)) {
     f = quartic(c, s);
@@ -163,11 +163,7 @@ bool ExactFlight::Data::hits_joint(int piece, Cell cell, const Crossing& k) cons
   if (!second.tangent) return second.before > 0;
   // Along the common tangent: it comes beside one wall and goes on beside the other, or through the
   // joint.
-  const Dyadic h = one_half() * omega;
-  const Dyadic cosine = k.p * k.p - h * h * k.r * k.r, sine = Dyadic(2) * k.p * k.r * h;
-  const DyadicVector jv = right(v);  // the velocity there, times a positive factor:
-  const DyadicVector w{cosine * v.x + sine * jv.x, cosine * v.y + sine * jv.y};
-  const bool forwards = dot(w, out).sign() > 0;
+  const bool forwards = dot(velocity_at(k), out).sign() > 0;
   const int comes = forwards ? first.before : second.before,
             goes = forwards ? second.after : first.after;
   return comes > 0 && goes <= 0;

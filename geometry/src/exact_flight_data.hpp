@@ -101,17 +101,25 @@ struct ExactFlight::Data {
   std::vector<Crossing> exits(int piece, Cell cell, bool starts_here, bool ends_here,
                               bool start_at_joint, std::vector<int>* zero_joints) const;
   std::vector<Crossing> touches(int piece, Cell cell, bool starts_here, bool ends_here) const;
-  LineAtCurve at_curve(const ExactCurve& c, const View& s, bool starts_here, bool ends_here) const {
-    LineAtCurve line{c, {s.x, s.y, s.w}, v, {}};
-    if (starts_here) line.known.emplace_back(u);
-    if (ends_here) line.known.emplace_back(1);
-    return line;
+  FlightAtCurve at_curve(const ExactCurve& c, const View& s, bool starts_here,
+                         bool ends_here) const {
+    FlightAtCurve flight{c, {s.x, s.y, s.w}, v, omega, {}};
+    if (starts_here) flight.known.emplace_back(u);
+    if (ends_here) flight.known.emplace_back(1);
+    return flight;
+  }
+  /// The velocity at a crossing, times a positive factor.
+  DyadicVector velocity_at(const Crossing& k) const {
+    const Dyadic h = one_half() * omega;
+    const Dyadic cosine = k.p * k.p - h * h * k.r * k.r, sine = Dyadic(2) * k.p * k.r * h;
+    const DyadicVector jv = right(v);
+    return {cosine * v.x + sine * jv.x, cosine * v.y + sine * jv.y};
   }
   bool segment_crossed_twice(const ExactCurve& c, const View& s, int side,
                              const Quadratic<Dyadic>& f) const;
   /// Is the foot of the Larmor circle's centre strictly between the ends of a segment?
   bool foot_between_ends(const ExactCurve& c, const View& s) const;
-  /// On which side of a piece's carrier the flight is just before and after it meets it at k
+  /// On which side of a piece's carrier the flight is just before and after it meets its end at k
   /// (rational).
   AroundEnd around(int piece, bool at_end, Cell cell, const Crossing& k) const;
   /// Does the flight, which passes through the start of a piece at k, come to it through the domain

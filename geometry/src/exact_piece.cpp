@@ -1,13 +1,12 @@
 #include "exact_piece.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "carom/geometry/bernstein.hpp"
 #include "exact_end.hpp"
 
 namespace carom::geometry {
-
-namespace {
 
 Polynomial plus(const Polynomial& a, const Polynomial& b) {
   Polynomial sum(std::max(a.size(), b.size()));
@@ -25,6 +24,8 @@ Polynomial times(const Polynomial& a, const Polynomial& b) {
     for (std::size_t j = 0; j < b.size(); ++j) product[i + j] = product[i + j] + a[i] * b[j];
   return product;
 }
+
+namespace {
 
 std::vector<Stretch> stretches_of(const ExactCurve& c, int count) {
   const Dyadic zero(0), one(1), two(2);
@@ -86,9 +87,12 @@ bool vanishes(const Polynomial& p) {
 }
 
 bool keeps_sign_in_unit(const Polynomial& p) {
-  // Bernstein coefficients, times 60: that makes them whole multiples of p's.
-  const auto share = [](const Dyadic& c, int m, int n) { return Dyadic(60 * m / n) * c; };
-  const SignChanges changes = sign_changes(bernstein_form<Bezier::most>(p, p.size() - 1, share),
+  // Bernstein coefficients, times 2520, which all binomials of degree 10 and below divide: that
+  // makes them whole multiples of p's.
+  const auto share = [](const Dyadic& c, int m, int n) {
+    return Dyadic(static_cast<int>(std::int64_t{2520} * m / n)) * c;
+  };
+  const SignChanges changes = sign_changes(bernstein_form<2 * Bezier::most>(p, p.size() - 1, share),
                                            [](const Dyadic& c) { return sign_of(c); });
   return changes.certain && changes.most == 0;
 }

@@ -52,10 +52,13 @@ class ExactPiece {
   mpq_class last_{1};  // end of the last stretch
 };
 
+Polynomial plus(const Polynomial& a, const Polynomial& b);
+Polynomial times(const Dyadic& a, Polynomial p);
+Polynomial times(const Polynomial& a, const Polynomial& b);
 /// Linear form a.(X - weight P) along a stretch.
 Polynomial form_along(const Stretch& s, const DyadicVector& a, const ExactPoint& p);
 bool vanishes(const Polynomial& p);
-/// Has p obviously no root in [0, 1]? Degree 5 at most.
+/// Has p obviously no root in [0, 1]? Degree 10 at most.
 bool keeps_sign_in_unit(const Polynomial& p);
 /// The roots in [0, 1], ascending; quick where the polynomial obviously keeps its sign there.
 std::vector<RealRoot> roots_in_unit(const Polynomial& p);

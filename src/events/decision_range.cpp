@@ -35,7 +35,6 @@ DecisionRange::DecisionRange(const Table& table)
     const bool segment = frame.kind == geometry::CurveFrame::Kind::segment;
     shortest_ = std::min(shortest_, segment ? frame.major : std::min(frame.major, frame.minor));
     ellipses_ = ellipses_ || !(segment || frame.circular || frame.bezier);
-    if (frame.bezier) bezier_ = wall.name;
     const geometry::Box box = geometry::bounding_box(wall.curve);
     reach(box.low);
     reach(box.high);
@@ -56,9 +55,6 @@ std::string DecisionRange::fault(const Particle& p) const {
   const double omega = std::fabs(p.omega), speed = p.speed;
   if (!(speed > 0.0)) return "";  // a disc at rest: it takes part of another's speed
   if (std::string s = outside("the speed", "", speed, 0x1p-200, 0x1p200); !s.empty()) return s;
-  if (omega > 0.0 && !bezier_.empty())
-    return "wall '" + bezier_ +
-           "' is a Bézier curve, which flights in a magnetic field cannot meet yet";
   if (omega > 0.0)
     if (std::string s = outside("the cyclotron frequency", "", omega, 0x1p-200, 0x1p200);
         !s.empty())

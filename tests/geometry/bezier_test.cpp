@@ -1,5 +1,5 @@
-// Straight flights against Bézier curves: the filter, the exact stage, and roots found by signs in
-// 500 digits, which share nothing with either.
+// Straight flights and Larmor circles against Bézier curves: the filter, the exact stage, and roots
+// found by signs in 500 digits, which share nothing with either.
 #include <gtest/gtest.h>
 
 #include <boost/multiprecision/mpfr.hpp>
@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "carom/geometry/bezier_line.hpp"
+#include "carom/geometry/bezier_flight.hpp"
 #include "carom/geometry/exact_flight.hpp"
 #include "carom/geometry/region.hpp"
 
@@ -53,12 +53,18 @@ BasicVector<Real> definition(const Bezier& b, const Real& u) {
 
 struct Flight {
   Vector start, v;
-  double on = -1.0;
+  double on = -1.0, omega = 0.0;
 };
 
 /// Adversarial: along tangents, by a hair beside them, at ends, from places on the curve.
-Flight random_flight(Dice& dice, const CurveFrame& f, double size) {
-  Flight flight{dice.point(1.5 * size), dice.point(1.0), -1.0};
+Flight random_flight(Dice& dice, const CurveFrame& f, double size, bool field) {
+  Flight flight{dice.point(1.5 * size), dice.point(1.0)};
+  const double h =  // half of omega
+      field ? std::ldexp(dice.coin() ? 1.0 : -1.0, dice.whole(-7, 5)) / size : 0.0;
+  flight.omega = 2.0 * h;
+  const double kappa = field ? h * (2.0 * dice.unit() - 1.0) / dice.unit() : 1.0;
+  // The velocity of a flight over that way.
+  const auto over = [&](Vector d) { return kappa * d + h * left(d); };
   const int kind = dice.whole(0, 5);
   if (dice.whole(0, 2) == 0) {
     flight.on = dice.whole(0, 9) == 0 ? std::ldexp(1.0, -dice.whole(1, 50)) : dice.unit();
@@ -66,21 +72,28 @@ Flight random_flight(Dice& dice, const CurveFrame& f, double size) {
     flight.start = point_at(f, flight.on);
   }
   const double at = dice.unit();
-  if (kind == 0) flight.v = point_at(f, at) - flight.start;
-  if (kind == 1) flight.v = point_at(f, dice.coin() ? 0.0 : 1.0) - flight.start;
+  if (kind == 0) flight.v = over(point_at(f, at) - flight.start);
+  if (kind == 1) flight.v = over(point_at(f, dice.coin() ? 0.0 : 1.0) - flight.start);
   if (kind == 2) {  // nearly along a tangent
     const double off = std::ldexp(dice.unit(), -dice.whole(0, 60));
     const Vector t = tangent_at(f, at);
-    if (flight.on < 0.0)
+    if (flight.on >= 0.0) {
+      flight.v = tangent_at(f, flight.on) + off * left(tangent_at(f, flight.on));
+    } else if (field) {
+      const Vector to = point_at(f, at) + (off * size) * left(t);
+      flight.start = to + displacement(kappa, -t, -flight.omega, 0.5);
+      flight.v = over(to - flight.start);
+    } else {
       flight.start = point_at(f, at) - (2.0 * size * dice.unit()) * t + (off * size) * left(t);
-    flight.v =
-        flight.on < 0.0 ? t : tangent_at(f, flight.on) + off * left(tangent_at(f, flight.on));
+      flight.v = t;
+    }
   }
   if (flight.on >= 0.0 && cross(direction_at(f, flight.on), flight.v) < 0.0) flight.v = -flight.v;
   return flight;
 }
 
-/// The first of the roots of g = v x (x(u) - start) at which the line leaves, by bisection.
+/// The first of the roots of g, v x (x(u) - start) or the side of a Larmor circle, at which the
+/// flight leaves, by bisection.
 struct Reference {
   bool found = false;
   double u = 0.0;
@@ -89,9 +102,11 @@ Reference reference(const Bezier& b, const Flight& f) {
   const BasicVector<Real> start =
       f.on < 0.0 ? BasicVector<Real>{f.start.x, f.start.y} : definition(b, f.on);
   const BasicVector<Real> v{f.v.x, f.v.y};
+  const Real omega(f.omega);
   // Standing on the curve g / (u - on), which rises where g does after the start, falls before it.
   const auto g = [&](const Real& u) {
-    const Real value = cross(v, definition(b, u) - start);
+    const BasicVector<Real> d = definition(b, u) - start;
+    const Real value = 2 * cross(v, d) + omega * dot(d, d);
     return f.on < 0.0 ? value : Real(value / (u - Real(f.on)));
   };
   const auto slope = [&](const Real& u) {
@@ -124,11 +139,12 @@ Reference reference(const Bezier& b, const Flight& f) {
     if (before * value < 0) {
       const bool rises = before < 0;
       const Real low = root(g, nodes[k - 1], nodes[k]);
-      const Real along = dot(v, definition(b, low) - start);
+      const BasicVector<Real> d = definition(b, low) - start;
+      const Real kappa = dot(v, d) / dot(d, d);
       const bool leaves = rises == (f.on < 0.0 || low > Real(f.on));
-      if (leaves && along > 0 && (!first.found || along < nearest)) {
+      if (leaves && (kappa > 0 || f.omega != 0.0) && (!first.found || kappa > nearest)) {
         first = {true, static_cast<double>(low)};
-        nearest = along;
+        nearest = kappa;
       }
     }
   }
@@ -139,7 +155,8 @@ struct Tally {
   long cases = 0, decided = 0, exits = 0;
 };
 
-Tally compare(unsigned seed, int curves, int flights, double size, bool with_reference) {
+Tally compare(unsigned seed, int curves, int flights, double size, bool field,
+              bool with_reference) {
   Dice dice{std::mt19937_64(seed)};
   Tally tally;
   for (int i = 0; i < curves; ++i) {
@@ -148,16 +165,21 @@ Tally compare(unsigned seed, int curves, int flights, double size, bool with_ref
     const CurveFrame& frame = prepared.parametrisation;
     const ExactBoundary boundary({{curve, {}, -1, false}}, {}, {});
     for (int k = 0; k < flights; ++k) {
-      const Flight f = random_flight(dice, frame, size);
+      const Flight f = random_flight(dice, frame, size, field);
       if (f.on >= 0.0 && boundary.inward(0, f.on, f.v) != Sign::positive) continue;
       const double delta = f.on < 0.0 ? 0.0 : prepared.point_error;
-      const FlightScale scale{delta, std::fabs(f.v.x) + std::fabs(f.v.y), 0.0, 1.0};
-      const ExactFlight exact(boundary, f.on < 0.0 ? -1 : 0, f.on, f.start, f.v, 0.0);
-      if (f.on < 0.0 && (std::fabs(cross(f.v, curve.from - f.start)) < 1e-12 * size ||
-                         std::fabs(cross(f.v, curve.to - f.start)) < 1e-12 * size))
+      const FlightScale scale{delta, std::fabs(f.v.x) + std::fabs(f.v.y), std::fabs(f.omega), 1.0};
+      const ExactFlight exact(boundary, f.on < 0.0 ? -1 : 0, f.on, f.start, f.v, f.omega);
+      const auto beside = [&](Vector joint) {
+        const Vector d = joint - f.start;
+        return std::fabs(side_of_flight(f.v, d, f.omega)) >
+               side_error(scale, std::fabs(d.x) + std::fabs(d.y));
+      };
+      if (f.on < 0.0 && !(beside(curve.from) && beside(curve.to)))
         continue;  // the driver asks for joints first
       ++tally.cases;
-      const LineExit exit = first_exit(*frame.bezier, f.start, f.v, scale, f.on);
+      const CurveExit exit = field ? first_exit(*frame.bezier, f.start, f.v, f.omega, scale, f.on)
+                                   : first_exit(*frame.bezier, f.start, f.v, scale, f.on);
       const ExactFlight::First first = exact.first({0}, {}, -1, f.on < 0.0 ? -1 : 0, -1);
       const bool leaves = first.kind == ExactFlight::First::Kind::exit;
       if (exit.leaves != Sign::undecided) {
@@ -166,8 +188,8 @@ Tally compare(unsigned seed, int curves, int flights, double size, bool with_ref
         if (leaves) {
           ++tally.exits;
           EXPECT_NEAR(exit.u, first.u, 1e-6) << seed << " " << i << " " << k;
-          const double along = dot(f.v, f.v) / first.kappa;
-          EXPECT_LE(std::fabs(exit.along - along), exit.error + 1e-15 * along)
+          const double place = field ? first.kappa : dot(f.v, f.v) / first.kappa;
+          EXPECT_LE(std::fabs(exit.place - place), exit.error + 1e-15 * std::fabs(place))
               << seed << " " << i << " " << k;
         }
       }
@@ -183,16 +205,21 @@ Tally compare(unsigned seed, int curves, int flights, double size, bool with_ref
 }
 
 TEST(BezierFlights, FilterAndExactStageAgree) {
-  for (const double size : {1.0, 1e-6, 1e6}) {
-    const Tally t = compare(3, 40, 100, size, false);
-    EXPECT_GT(t.exits, t.cases / 10);
-    EXPECT_GT(t.decided, t.cases * 3 / 4);  // of adversarial flights
-  }
+  for (const bool field : {false, true})
+    for (const double size : {1.0, 1e-6, 1e6}) {
+      const Tally t = compare(3, 40, field ? 20 : 100, size, field, false);
+      std::printf("size %g, field %d: %ld flights, %ld decided, %ld exits\n", size, field, t.cases,
+                  t.decided, t.exits);
+      EXPECT_GT(t.exits, t.cases / 10);
+      EXPECT_GT(t.decided, t.cases * 3 / 4);  // of adversarial flights
+    }
 }
 
 TEST(BezierFlights, BothAgreeWithBisectionInFiveHundredDigits) {
-  const Tally t = compare(4, 12, 25, 1.0, true);
-  EXPECT_GT(t.exits, 30);
+  for (const bool field : {false, true}) {
+    const Tally t = compare(4, 12, field ? 12 : 25, 1.0, field, true);
+    EXPECT_GT(t.exits, field ? 15 : 30);
+  }
 }
 
 }  // namespace

@@ -155,21 +155,26 @@ RationalRange range_of(const Polynomial& p, const mpq_class& low, const mpq_clas
 
 }  // namespace
 
-AlgebraicRoot quotient_at(const Dyadic& c, const Polynomial& p, const AlgebraicRoot& x) {
-  // k p(u) - c, a polynomial in u with coefficients in k, has a root in common with x's polynomial
-  // exactly where their resultant vanishes.
+AlgebraicRoot quotient_at(const Polynomial& p, const Polynomial& q, const AlgebraicRoot& x) {
+  // k q(u) - p(u), a polynomial in u with coefficients in k, has a root in common with x's
+  // polynomial exactly where their resultant vanishes. Roots of q are divided out of x's polynomial
+  // before: where p had them, too, the resultant would vanish for every k.
   using Two = CGAL::Polynomial_type_generator<CORE::BigInt, 2>::Type;
   std::vector<RealRoot> candidates;
   {
     const auto turn = alone();
     Polynomial all = p;
-    all.push_back(c);
+    all.insert(all.end(), q.begin(), q.end());
     const std::vector<CORE::BigInt> integers = integers_of(all);
+    const auto coefficient = [&](std::size_t first, std::size_t count, std::size_t i) {
+      return i < count ? integers[first + i] : CORE::BigInt(0);
+    };
     std::vector<IntegerPolynomial> left, right;
-    for (std::size_t i = 0; i < p.size(); ++i)
-      left.push_back(i == 0 ? IntegerPolynomial(-integers.back(), integers[0])
-                            : IntegerPolynomial(CORE::BigInt(0), integers[i]));
-    const IntegerPolynomial& f = x.data().value.polynomial();
+    for (std::size_t i = 0; i < std::max(p.size(), q.size()); ++i)
+      left.emplace_back(-coefficient(0, p.size(), i), coefficient(p.size(), q.size(), i));
+    IntegerPolynomial f = x.data().value.polynomial();
+    const IntegerPolynomial common = CommonFactor{}(f, integer_polynomial(q));
+    if (CGAL::degree(common) > 0) f = CGAL::integral_division_up_to_constant_factor(f, common);
     for (int i = 0; i <= f.degree(); ++i) right.emplace_back(f[i]);
     candidates =
         real_roots(CGAL::resultant(Two(left.begin(), left.end()), Two(right.begin(), right.end())));
@@ -182,10 +187,12 @@ AlgebraicRoot quotient_at(const Dyadic& c, const Polynomial& p, const AlgebraicR
       low = rational(x.data().value.low());
       high = rational(x.data().value.high());
     }
-    const RationalRange value = range_of(p, low, high);
-    if (sgn(value.low) * sgn(value.high) <= 0) continue;
-    mpq_class first = c.rational() / value.low, last = c.rational() / value.high;
-    if (first > last) std::swap(first, last);
+    const RationalRange above = range_of(p, low, high), below = range_of(q, low, high);
+    if (sgn(below.low) * sgn(below.high) <= 0) continue;
+    const mpq_class quotients[] = {above.low / below.low, above.low / below.high,
+                                   above.high / below.low, above.high / below.high};
+    const mpq_class first = *std::min_element(quotients, quotients + 4),
+                    last = *std::max_element(quotients, quotients + 4);
     const RealRoot* found = nullptr;
     int count = 0;
     for (const RealRoot& candidate : candidates)

@@ -21,7 +21,6 @@ class DecisionRange {
   void reach(geometry::Vector x);
   double shortest_, largest_ = 0.0;  ///< wall, radius, semi-axis or edge of a cell; coordinate
   bool ellipses_ = false;
-  std::string bezier_;  ///< name of a wall that is a Bézier curve, or ""
 };
 
 /// The first fault of these particles in that table and its regions, or "".

@@ -1,5 +1,5 @@
-// Straight flights against Bézier curves.
-#include "carom/geometry/bezier_line.hpp"
+// Flights against Bézier curves.
+#include "carom/geometry/bezier_flight.hpp"
 
 #include "base/index.hpp"
 #include "events/flight/crossing.hpp"
@@ -16,20 +16,25 @@ Sign PieceTable::bezier_exit(const Flight& f, int piece, const Origin& seen, dou
   if (starts && ends) return Sign::undecided;  // at the joint of a curve with itself
   FlightScale scale = seen.scale;
   scale.inflation = inflation;
-  const LineExit exit =
-      geometry::first_exit(*w.parametrisation.bezier, seen.point, f.velocity, scale,
-                           starts ? f.u
-                           : ends ? 1.0
-                                  : -1.0);
+  const BezierForm& curve = *w.parametrisation.bezier;
+  const double on = starts ? f.u : ends ? 1.0 : -1.0;
+  const CurveExit exit =
+      f.omega == 0.0 ? geometry::first_exit(curve, seen.point, f.velocity, scale, on)
+                     : geometry::first_exit(curve, seen.point, f.velocity, f.omega, scale, on);
   if (exit.leaves != Sign::positive) return exit.leaves;
   // Bounds are allowed to change where a root is looked for, not the number that is found.
   if (inflation != 1.0) return bezier_exit(f, piece, seen, 1.0, c);
-  // kappa = |v|^2 / along; |v|^2 and the quotient are rounded.
   c.u = exit.u;
-  c.time = exit.along;
+  if (f.omega != 0.0) {
+    c.root.kappa = exit.place;
+    c.error = exit.error;
+    return Sign::positive;
+  }
+  // kappa = |v|^2 / place; |v|^2 and the quotient are rounded.
+  c.time = exit.place;
   c.unit = dot(f.velocity, f.velocity);
   c.root.kappa = c.unit / c.time;
-  c.error = c.root.kappa * (exit.error / (exit.along - exit.error) + 5.1 * unit_roundoff);
+  c.error = c.root.kappa * (exit.error / (exit.place - exit.error) + 5.1 * unit_roundoff);
   return Sign::positive;
 }
 

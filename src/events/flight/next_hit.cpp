@@ -166,7 +166,7 @@ inline Sign larmor_through_ellipse(const Meeting& m, Crossing& c) {
   return found;
 }
 
-inline Sign line_through_bezier(const Meeting& m, Crossing& c) {
+inline Sign through_bezier(const Meeting& m, Crossing& c) {
   const std::pair<Sign, Crossing> found = bezier_crossing(m.table, m.flight, m.piece, m.origin);
   c = found.second;
   return found.first;
@@ -178,10 +178,11 @@ template <bool larmor>
   if constexpr (larmor)
     return segment                              ? larmor_through_segment(m, c)
            : m.curve.kind == CurveKind::ellipse ? larmor_through_ellipse(m, c)
+           : m.curve.kind == CurveKind::bezier  ? through_bezier(m, c)
                                                 : larmor_through_circle(m, c);
   else
     return segment                             ? line_through_segment(m, c)
-           : m.curve.kind == CurveKind::bezier ? line_through_bezier(m, c)
+           : m.curve.kind == CurveKind::bezier ? through_bezier(m, c)
                                                : line_through_conic(m, c);
 }
 
@@ -267,7 +268,7 @@ bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> 
     // At most two crossings, so the sides of its joints tell, except for a Larmor circle that may
     // cross an ellipse four times, and for Bézier curves.
     const bool told =
-        !p.closed && !(larmor ? p.kind == CurveKind::ellipse : p.kind == CurveKind::bezier);
+        !p.closed && !(larmor && p.kind == CurveKind::ellipse) && p.kind != CurveKind::bezier;
     if (told && left_[at(piece)] != 0 && left_[at(p.next)] == 0) continue;  // it enters
     const Meeting m = meeting(piece);
     Crossing c;
@@ -295,7 +296,9 @@ bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> 
 
   if (larmor && best >= 0) {
     const Meeting m = meeting(best);
-    if (!t_.is_quartic(f, best)) {
+    if (m.curve.kind == CurveKind::bezier) {
+      // Its number is certain already.
+    } else if (!t_.is_quartic(f, best)) {
       if (!far_root_certain(first.quadratic, m.error(), m.on_wall)) return false;
     } else if (t_.options.filter_inflation != 1.0) {
       // Bounds are allowed to change where a quartic's root is looked for, not the number that is
@@ -362,8 +365,10 @@ Ahead HitFinder::exact_next(const Flight& f, const std::vector<int>& pieces) con
     const bool same = t_.bezier_exit(f, ahead.piece, origin, 1.0, c) == Sign::positive;
     ahead.u = same ? c.u : first.u;
     ahead.kappa = same ? c.root.kappa : first.kappa;
-    ahead.duration = same ? c.time / c.unit : 1.0 / first.kappa;
-    return ahead;
+    if (f.omega == 0.0) {
+      ahead.duration = same ? c.time / c.unit : 1.0 / first.kappa;
+      return ahead;
+    }
   } else if (t_.is_quartic(f, ahead.piece)) {
     Crossing c;
     const bool same = t_.first_exit(f, ahead.piece, origin, 1.0, c) == Sign::positive;

@@ -96,15 +96,11 @@ void check_regions(const Value& root, const System& system, const Table& table) 
   }
 }
 
-// Bézier curves are met by straight flights alone, so far.
+// Bézier curves are met by free flights alone, so far.
 void check_beziers(const Value& root, const System& system, const Table& table) {
   const Wall* wall = table::bezier_wall(table);
   if (wall == nullptr) return;
   const std::string what = "beside Bézier curves, of which wall '" + wall->name + "' is one";
-  if (std::any_of(system.particles.begin(), system.particles.end(),
-                  [](const Particle& p) { return p.omega != 0.0; }))
-    throw InputError(root.find("field")->place, "a magnetic field " + what + ", is not there yet",
-                     "walls of segments, circles and ellipses, or no field");
   if (system.dynamics.forces->empty() && !system.of_discs()) return;
   const Value* forces = root.find("potential");
   if (forces == nullptr) forces = root.find("interaction");
