@@ -13,7 +13,7 @@ namespace {
 constexpr int width = CAROM_WIDTH;
 typedef double Numbers __attribute__((vector_size(8 * width)));
 
-#if defined(__FMA__) || !defined(__x86_64__)
+#if defined(__FMA__) || !(defined(__x86_64__) || defined(__wasm__))
 using Products = fast::Fusing;
 #else
 using Products = fast::Splitting;
