@@ -147,7 +147,8 @@ class ForceMap {
     const std::uint64_t of_exponent = static_cast<std::uint64_t>(exponent + 2048);
     // Neighbours lie side by side in squares of 128 times 128.
     return {rounded_i, rounded_j, of_exponent << 52 | (a & 0x3ffffff) << 26 | (b & 0x3ffffff),
-            ((a & 127) + 128 * (b & 127) + 16384 * of_exponent) & (kept_entries - 1)};
+            static_cast<std::size_t>(((a & 127) + 128 * (b & 127) + 16384 * of_exponent) &
+                                     (kept_entries - 1))};
   }
   const Entry& compute(Entry&, std::uint64_t key, int exponent, double i, double j) const;
   bool resolves_mesh(int exponent, double i, double j, double energy,
