@@ -1,0 +1,131 @@
+// Ensembles: what the program's commands compute and print with --json.
+#include <fmt/format.h>
+
+#include "analyses/section/report.hpp"
+#include "carom/analyses/kinds.hpp"
+#include "carom/analyses/section.hpp"
+#include "carom/base/error.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/commands/ensemble_job.hpp"
+#include "cli/commands/own_step.hpp"
+#include "cli/reports/ensemble_reports.hpp"
+#include "systems.hpp"
+
+namespace carom::page {
+
+namespace {
+
+using cli::Options;
+
+/// Options of the command line by their names in a request.
+struct Named {
+  const char *key, *option;
+  std::string Options::*of_command;
+  std::string SystemOverrides::*of_system;
+};
+constexpr Named named[] = {
+    {"trajectories", "--trajectories", nullptr, &SystemOverrides::trajectories},
+    {"t_max", "--t-max", nullptr, &SystemOverrides::t_max},
+    {"collisions", "--collisions", nullptr, &SystemOverrides::collisions},
+    {"seed", "--seed", nullptr, &SystemOverrides::seed},
+    {"times", "--times", nullptr, &SystemOverrides::times},
+    {"window", "--window", &Options::window, nullptr},
+    {"on", "--on", &Options::on, nullptr},
+    {"direction", "--direction", &Options::direction, nullptr},
+    {"points", "--points", &Options::points, nullptr},
+    {"orbits", "--orbits", &Options::orbits, nullptr}};
+
+std::string in_shell(const std::string& text) {
+  const bool plain = text.find_first_not_of(
+                         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                         "0123456789_-+.,:/=") == text.npos;
+  return plain && !text.empty() ? text : "'" + text + "'";
+}
+
+/// The options of a request as if they were typed; `line` gets the command.
+Options typed(const Request& request, const OpenSystem& open) {
+  Options options;
+  options.command = text_of(request, "analysis");
+  options.system = open.name;
+  options.system_text = open.toml;
+  options.quiet = options.json = true;
+  options.line = fmt::format("carom {} {}", options.command, open.name);
+  bool closed = false;
+  const auto set = [&](const std::string& path, const std::string& value) {
+    options.overrides.set.emplace_back(path, value);
+    options.line += " --set " + in_shell(path + "=" + value);
+  };
+  for (const auto& [key, value] : request.get_child("options", {})) {
+    const std::string& text = value.data();
+    if (key == "set") {
+      for (const auto& [path, one] : value) set(path, one.data());
+    } else if (key == "closed") {
+      closed = text == "true";
+    } else {
+      const Named* const found = std::find_if(std::begin(named), std::end(named),
+                                              [&k = key](const Named& n) { return k == n.key; });
+      if (found == std::end(named)) throw InputError("the page has no option '" + key + "'");
+      (found->of_command ? options.*found->of_command : options.overrides.*found->of_system) = text;
+      options.line += fmt::format(" {} {}", found->option, in_shell(text));
+    }
+  }
+  if (closed) {  // the program takes it after --set
+    options.overrides.set.emplace_back("table.hole", "[]");
+    options.line += " --closed";
+  }
+  return options;
+}
+
+/// Flies until the step that the program chose keeps the energy, as the commands do.
+template <class Result, class Fly>
+Result flown_well(const Options& options, LoadedSystem& loaded, cli::OwnStep& own_step, Fly fly) {
+  for (;;) {
+    Result result = fly(loaded.system);
+    if (!own_step.halve(loaded, result.energy_error)) return result;
+  }
+}
+
+void refuse_nothing(const System&, const EnsembleResult&) {}
+void refuse_nothing(const System& system, const LyapunovResult& result) {
+  if (const auto error = why_nothing(system, result)) throw *error;
+}
+
+template <class Result>
+Json of_kind(const Options& options) {
+  LoadedSystem loaded = cli::load_ensemble(options);
+  cli::OwnStep own_step(options);
+  EnsembleOptions<Result> how;
+  how.lanes.reset();
+  const auto result = flown_well<Result>(options, loaded, own_step,
+                                         [&](const System& system) { return flown(system, how); });
+  refuse_nothing(loaded.system, result);
+  return own_step.with_halvings(
+      cli::result_json(loaded.system, result, {.status = "completed", .output = "", .shard = {}}));
+}
+
+Json sections(const Options& options) {
+  LoadedSystem loaded = cli::system_of_section(options);
+  cli::OwnStep own_step(options);
+  SectionOptions how;
+  how.lanes.reset();
+  const auto result = flown_well<SectionResult>(
+      options, loaded, own_step, [&](const System& system) { return run_section(system, how); });
+  return own_step.with_halvings(cli::section_json(loaded.system, result, "completed", ""));
+}
+
+}  // namespace
+
+Json ensemble(const Request& request) {
+  const Options options = typed(request, *system_of(request));
+  Json json;
+  if (options.command == "section")
+    json = sections(options);
+  else if (!for_kind(options.command, [&]<class Result>(std::type_identity<Result>) {
+             json = of_kind<Result>(options);
+           }))
+    throw InputError("the page does not compute '" + options.command +
+                     "'; the program may: carom --help lists what it does");
+  return json.set("command", options.line);
+}
+
+}  // namespace carom::page

@@ -1,0 +1,15 @@
+# Compiles for browsers: clang with emscripten's C and C++ libraries. emscripten itself only links, for it takes a second
+# or two for each file.
+set(CMAKE_SYSTEM_NAME Generic)
+set(CMAKE_SYSTEM_PROCESSOR wasm32)
+set(CMAKE_C_COMPILER clang-14)
+set(CMAKE_CXX_COMPILER clang++-14)
+set(CMAKE_AR llvm-ar-14)
+set(CMAKE_RANLIB llvm-ranlib-14)
+set(CMAKE_C_COMPILER_TARGET wasm32-unknown-emscripten)
+set(CMAKE_CXX_COMPILER_TARGET wasm32-unknown-emscripten)
+set(CMAKE_C_FLAGS_INIT "-DEMSCRIPTEN -Xclang -iwithsysroot/include/compat")
+set(CMAKE_CXX_FLAGS_INIT "${CMAKE_C_FLAGS_INIT} -D_LIBCPP_ABI_VERSION=2 -fno-threadsafe-statics")
+set(CMAKE_SYSROOT /usr/share/emscripten/cache/sysroot)
+set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+set(CMAKE_CXX_LINK_EXECUTABLE "em++ <FLAGS> <LINK_FLAGS> <OBJECTS> -o <TARGET> <LINK_LIBRARIES>")

@@ -1,0 +1,136 @@
+// The page's engine computes what the program computes: digests of analyses, single hits, commands that are shown.
+// node engine.mjs PROGRAM FOLDER
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { execFileSync } from "node:child_process";
+import { tmpdir } from "node:os";
+import path from "node:path";
+import { call, carom, each, expect, finish, places, step } from "./common.mjs";
+
+const folder = mkdtempSync(path.join(tmpdir(), "carom-page-"));
+const { systems } = call({ do: "systems" });
+const loaded = new Map(systems.map(({ name }) => [name, call({ do: "load", toml: call({ do: "toml", name }).toml })]));
+expect(systems.length > 10, "there are built-in systems");
+
+// Few trajectories for short times where every step is integrated.
+const size = ({ potential }) => (potential ? { trajectories: 6, t_max: 4 } : { trajectories: 300, t_max: 60 });
+const analyses = ["escape", "lyapunov", "diffusion", "section"];
+
+/** A text without the ways in which lines are folded. */
+const flat = (text) => text.replace(/\s+/g, " ").trim();
+
+// Times, and what depends on lanes.
+const notSame = ["seconds", "cpu_seconds", "command", "isa", "lanes", "decisions"];
+/** Where two answers differ; "": nowhere. Fits are made with each machine's own functions. */
+function difference(a, b) {
+  if (typeof a === "number" && typeof b === "number") return Math.abs(a - b) <= 1e-9 * Math.abs(b) ? "" : `: ${a} is not ${b}`;
+  if (typeof a !== "object" || typeof b !== "object" || !a || !b) return a === b ? "" : `: ${a} is not ${b}`;
+  for (const key of new Set([...Object.keys(a), ...Object.keys(b)])) {
+    const inner = difference(a[key], b[key]);
+    if (inner) return `${key} ${inner}`;
+  }
+  return "";
+}
+
+async function compare(analysis, system, options, files = {}) {
+  const answer = call({ do: "ensemble", analysis, system: system.system, options });
+  if (answer.error) {
+    const size = Object.entries(options).flatMap(([key, value]) => [`--${key.replace("_", "-")}`, String(value)]);
+    const { error } = await carom([analysis, system.name, ...size, "--json", "--quiet"], files);
+    expect(flat(error ?? "") === flat(`carom: ${answer.error}`), `${analysis} ${system.name}: ${answer.error} / ${error}`);
+    return;
+  }
+  // The command as the page shows it, typed in a shell.
+  const [, ...typed] = execFileSync("sh", ["-c", `printf '%s\\0' ${answer.command}`], { encoding: "utf8" }).split("\0");
+  const { out } = await carom([...typed.slice(0, -1), "--json", "--quiet", "--threads", "1"], files);
+  const printed = JSON.parse(out);
+  expect(printed.digest === answer.digest, `${answer.command}: ${answer.digest} is not ${printed.digest}`);
+  for (const key of notSame) delete printed[key], delete answer[key];
+  const where = difference(answer, printed);
+  expect(where === "", `${analysis} ${system.name}: another number, ${where}`);
+}
+
+await each([...loaded.values()].flatMap((system) => analyses.map((analysis) => [analysis, system])), ([analysis, system]) =>
+  compare(analysis, system, analysis === "section" ? { orbits: 3, points: 40, t_max: size(system).t_max } : size(system)),
+);
+
+// A system that was edited is a file for the program.
+const text = call({ do: "toml", name: "stadium" }).toml.replace("half_length = 2", "half_length = 2.25");
+const edited = call({ do: "load", toml: text });
+writeFileSync(path.join(folder, "SYSTEM.toml"), text);
+await compare("escape", edited, { trajectories: 200, seed: 7, closed: false }, { cwd: folder });
+await compare("lyapunov", edited, { trajectories: 20, t_max: 50, closed: true, set: { "field.B": "0.1" } }, { cwd: folder });
+expect(edited.keys.find((key) => key.key === "half_length").line === text.split("\n").findIndex((l) => l.includes("2.25")) + 1,
+  "a key tells its line");
+
+// 1000 hits, bit by bit: those that an archive stores.
+const python = `
+import h5py, struct, sys
+hits = h5py.File(sys.argv[1])["collisions"]
+first = hits["particle"][:] == 0
+columns = [hits[name][:][first][:1000] for name in ("t", "x", "y", "vx", "vy", "wall", "s", "v_parallel")]
+for row in zip(*columns): print(" ".join(struct.pack(">d", float(x)).hex() for x in row))
+`;
+const bits = (x) => {
+  const view = new DataView(new ArrayBuffer(8));
+  view.setFloat64(0, x);
+  return view.getBigUint64(0).toString(16).padStart(16, "0");
+};
+let without = "";
+await each(loaded.values(), async (system) => {
+  const { name } = system;
+  const file = path.join(folder, `${name}.h5`);
+  const limit = system.potential ? ["--t-max", "20"] : ["--collisions", "1000"];
+  const { error } = await carom(["run", name, "--closed", "--trajectory", "3", ...limit, "--quiet", "-o", file]);
+  if (error) return expect(/hole/.test(error), `run ${name}: ${error}`);
+  let stored;
+  try {
+    stored = execFileSync("/usr/bin/python3", ["-c", python, file], { encoding: "utf8", stdio: ["ignore", "pipe", "ignore"] });
+  } catch {
+    without = "; no single hits, which python3-h5py would read";
+    return;
+  }
+  const rows = stored.split("\n").filter(Boolean);
+  const toml = call({ do: "toml", name }).toml.replace(/\[\[table\.hole\]\][^[]*/g, "");
+  const closed = call({ do: "load", toml });
+  const { orbit } = call({ do: "orbit", system: closed.system, start: { seed: closed.keys.find((k) => k.key === "seed")?.value ?? 1, trajectory: 3 } });
+  const flown = [];
+  while (flown.length < rows.length) {
+    const more = step(orbit, Math.min(7, rows.length - flown.length));
+    if (!more.length) break;
+    flown.push(...more);
+  }
+  expect(flown.length === rows.length, `${name}: ${flown.length} hits of ${rows.length}`);
+  const walls = closed.walls.filter((wall) => !wall.hole);
+  const other = flown.findIndex((row, i) => {
+    const [t, x, y, vx, vy, wall, s, v] = row, stored = rows[i].split(" ");
+    const one = [t, x, y, vx, vy, wall, v].map(bits).join(" "), two = [0, 1, 2, 3, 4, 5, 7].map((k) => stored[k]).join(" ");
+    const along = Buffer.from(stored[6], "hex").readDoubleBE(0) + walls[wall].offset;
+    return one !== two || bits(s) !== bits(along);
+  });
+  expect(other < 0, `${name}: hit ${other} is ${flown[other]}`);
+  call({ do: "unload", system: closed.system });
+});
+
+// Places do not depend on what was asked before.
+for (const name of ["stadium", "magnetic-square", "lorentz-triangular", "henon-heiles"]) {
+  const { system } = loaded.get(name);
+  const start = { seed: 1, trajectory: 5 };
+  const one = call({ do: "orbit", system, start }).orbit, two = call({ do: "orbit", system, start }).orbit;
+  step(one, 20);
+  const times = [0, 0.3, 2.5, 1.1];
+  for (const t of times) expect(places([one], t).every((x, i) => x === places([two], t)[i]), `${name} at ${t}`);
+  call({ do: "forget", orbit: one });
+  expect(call({ do: "decisions", orbit: one }).error, `${name}: an orbit that was forgotten`);
+}
+
+// A start on the boundary is where it was asked for.
+{
+  const { system, length } = loaded.get("stadium");
+  const { orbit } = call({ do: "orbit", system, start: { s: 0.7 * length, v: -0.25 } });
+  const [x, y, vx, vy] = places([orbit], 0);
+  expect(Math.abs(Math.hypot(vx, vy) - 1) < 1e-12 && Math.abs(Math.hypot(Math.max(0, Math.abs(x) - 2), y) - 1) < 1e-12, `on the boundary: ${x} ${y}`);
+  expect(call({ do: "orbit", system, start: { position: [9, 9], velocity: [1, 0] } }).error, "a start outside is refused");
+}
+
+rmSync(folder, { recursive: true });
+finish(`engine${without}`);
