@@ -10,6 +10,8 @@
 #include <limits>
 #include <random>
 
+#include "carom/base/fused_by_sums.hpp"
+
 namespace carom {
 namespace {
 
