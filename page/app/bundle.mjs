@@ -1,0 +1,43 @@
+// node bundle.mjs CAROM.mjs CAROM.wasm OUT.html: the page as one file, with the engine in it.
+import { build } from "esbuild";
+import { readFileSync, writeFileSync } from "node:fs";
+import { dirname, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const [factory, wasm, out] = process.argv.slice(2);
+if (!out) {
+  console.error("usage: node bundle.mjs CAROM.mjs CAROM.wasm OUT.html");
+  process.exit(2);
+}
+
+async function bundle(entry) {
+  const { outputFiles } = await build({
+    entryPoints: [resolve(here, entry)],
+    bundle: true,
+    minify: true,
+    write: false,
+    format: "iife",
+    target: ["chrome110", "firefox113", "safari16.4"],
+    alias: { "carom-engine": resolve(factory) },
+    external: ["module", "fs", "path", "url", "worker_threads", "perf_hooks", "ws", "crypto"], // of emscripten's Node branches, never taken
+    define: { "import.meta.url": '""' },
+    legalComments: "inline",
+    logLevel: "warning",
+  });
+  return outputFiles[0].text;
+}
+
+// A script's text may not hold the sign that ends it.
+const script = (text) => text.replace(/<\/script/gi, "<\\/script").replace(/<!--/g, "<\\!--");
+
+const parts = {
+  CSS: readFileSync(resolve(here, "page.css"), "utf8") + readFileSync(resolve(here, "../node_modules/uplot/dist/uPlot.min.css"), "utf8"),
+  WASM: gzipSync(readFileSync(wasm), { level: 9 }).toString("base64"),
+  WORKER: script(await bundle("worker.ts")),
+  MAIN: script(await bundle("main.ts")),
+};
+const page = readFileSync(resolve(here, "index.html"), "utf8").replace(/\/\*(CSS|WASM|WORKER|MAIN)\*\//g, (_, name) => parts[name]);
+writeFileSync(out, page);
+console.log(`${out}: ${(Buffer.byteLength(page) / 1e6).toFixed(2)} MB`);

@@ -1,0 +1,62 @@
+// Handles on the walls: for each number of the table, the point of the walls that moves the most when it changes.
+// The engine says where the walls go: the system is loaded once more with the number a little larger.
+import type { Client } from "./client";
+import type { Key, System } from "./protocol";
+import { withValue } from "./toml";
+
+export interface Handle {
+  key: Key;
+  value: number;
+  x: number;
+  y: number;
+  /** How the point moves for a unit of the value. */
+  dx: number;
+  dy: number;
+}
+
+export async function findHandles(client: Client, text: string, system: System): Promise<Handle[]> {
+  const handles: Handle[] = [];
+  for (const key of system.keys) {
+    const value = Number(key.value);
+    if (!key.section.startsWith("table") || !isFinite(value) || value === 0) continue;
+    const larger = 1.02 * value;
+    const changed = withValue(text, key.line, key.key, String(larger));
+    if (!changed) continue;
+    try {
+      const other: System = await client.call({ do: "load", toml: changed });
+      await client.call({ do: "unload", system: other.system });
+      const found = farthest(system, other);
+      if (!found) continue;
+      const by = larger - value;
+      if (handles.some((h) => Math.hypot(h.x - found.x, h.y - found.y) < 1e-3 * Math.hypot(system.box[2] - system.box[0], system.box[3] - system.box[1]))) continue;
+      handles.push({ key, value, x: found.x, y: found.y, dx: found.dx / by, dy: found.dy / by });
+    } catch {
+      // A larger value is refused: no handle.
+    }
+  }
+  return handles;
+}
+
+function farthest(a: System, b: System): { x: number; y: number; dx: number; dy: number } | undefined {
+  let best;
+  let reach = 0;
+  for (let w = 0; w < a.walls.length; ++w) {
+    const [from, to] = [a.walls[w].points, b.walls[w]?.points];
+    if (from.length !== to?.length) return undefined;
+    for (let i = 0; i < from.length; i += 2) {
+      const [dx, dy] = [to[i] - from[i], to[i + 1] - from[i + 1]];
+      const moved = Math.hypot(dx, dy);
+      if (moved > reach * (1 + 1e-9)) {
+        reach = moved;
+        best = { x: from[i], y: from[i + 1], dx, dy };
+      }
+    }
+  }
+  return best;
+}
+
+/** The value that brings a handle's point nearest to a place. */
+export function pulled(handle: Handle, x: number, y: number): number {
+  const along = (x - handle.x) * handle.dx + (y - handle.y) * handle.dy;
+  return handle.value + along / (handle.dx * handle.dx + handle.dy * handle.dy);
+}

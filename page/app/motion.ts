@@ -1,0 +1,215 @@
+// The motion: which particles fly, how fast the page's time goes, and the frames.
+import type { Client } from "./client";
+import type { Frame, Start, System } from "./protocol";
+import type { Section } from "./section";
+import type { Table } from "./table";
+import type { Trace } from "./trace";
+import { count, plain } from "./words";
+
+const BUDGET = 9; // milliseconds of a frame that the engine may take
+const FAN = 0.01; // radians between the first and the last particle of a drag
+const COLOURS = 8;
+const MOST = 10000;
+
+interface Hooks {
+  /** For a screen reader, now and then. */
+  say(text: string): void;
+  /** The line below the drawings. */
+  state(text: string): void;
+}
+
+export class Motion {
+  playing = true;
+  hitsPerSecond = 10;
+  particles = 1;
+  from: Start = { seed: 1, trajectory: 0 };
+  /** For tests: frames drawn, and what each took. */
+  readonly timing = { frames: 0, costs: [] as number[], intervals: [] as number[] };
+  private system?: System;
+  private t = 0;
+  private pace = 1;
+  private slot = 0;
+  private groups = 0;
+  private hits = 0;
+  private flying = 0;
+  private busy = false;
+  private ready?: Frame;
+  private lastAsk = 0;
+  private lastFrame = 0;
+  private generation = 0;
+  private decisions = "";
+  private waiting = false;
+  private note = "";
+
+  constructor(
+    private readonly client: Client,
+    private readonly trace: Trace,
+    private readonly table: Table,
+    private readonly section: Section,
+    private readonly hooks: Hooks,
+  ) {
+    requestAnimationFrame((now) => this.tick(now));
+    setInterval(() => void this.countDecisions(), 1000);
+    (window as unknown as { carom: object }).carom = { timing: this.timing, motion: this };
+  }
+
+  /** Another system: the same start again, as far as it had come. */
+  async change(system: System, from: Start | undefined, fresh: boolean): Promise<void> {
+    const reached = fresh ? 0 : Math.min(this.t, 60 * this.pace);
+    this.from = from ?? this.from;
+    let good = await this.start(system, this.from, true, reached);
+    if (!good && !("seed" in this.from)) good = await this.start(system, { seed: 1, trajectory: 0 }, true, reached);
+  }
+
+  /** Starts particles; `fresh` forgets those that fly. False: the engine refuses the start. */
+  async start(system: System, from: Start, fresh: boolean, reached = 0): Promise<boolean> {
+    const n = this.particles;
+    const keep = !fresh && this.system === system && n <= 64 && this.flying + n <= MOST;
+    if (!keep) this.forget();
+    const slots = this.slots(n);
+    const generation = ++this.generation;
+    const begun = await this.client.begin({ do: "begin", system: system.system, potential: system.potential, starts: starts(from, n), slots, keep });
+    if (generation !== this.generation && !keep) return true;
+    this.ready = undefined;
+    this.system = system;
+    this.note = begun.refused.length ? begun.refused[0].text : "";
+    if (begun.slots.length === 0) {
+      this.report();
+      return false;
+    }
+    this.from = from;
+    this.flying = (keep ? this.flying : 0) + begun.slots.length;
+    begun.slots.forEach((slot, i) => this.trace.starts.set(slot, begun.states.slice(4 * i, 4 * i + 4)));
+    this.table.started(begun.slots, begun.states, this.flying);
+    const box = system.box;
+    const speed = Math.hypot(begun.states[2], begun.states[3]) || 1;
+    this.pace = begun.pace || (0.5 * Math.hypot(box[2] - box[0], box[3] - box[1])) / speed;
+    this.hooks.say(n === 1 ? "One particle started." : `${n} particles started.`);
+    if (reached > 0) this.ready = await this.client.frame(reached, 40);
+    return true;
+  }
+
+  clear(): void {
+    this.forget();
+    if (this.system) void this.start(this.system, this.from, true);
+  }
+
+  /** The next start of the file's own ensemble. */
+  nextOfFile(): Start {
+    return "seed" in this.from ? { seed: this.from.seed, trajectory: this.from.trajectory + this.particles } : { seed: 1, trajectory: 0 };
+  }
+
+  private forget(): void {
+    this.trace.clear();
+    this.t = 0;
+    this.hits = 0;
+    this.flying = 0;
+    this.ready = undefined;
+    this.decisions = "";
+    this.table.clear(this.particles);
+    this.section.clear();
+  }
+
+  /** Few particles have a colour each; many share one. */
+  private slots(n: number): number[] {
+    if (n <= 64) return Array.from({ length: n }, () => this.slot++);
+    const colour = this.groups++ % COLOURS;
+    this.slot = COLOURS * Math.ceil(this.slot / COLOURS);
+    const first = this.slot;
+    this.slot += COLOURS * n;
+    return Array.from({ length: n }, (_, i) => first + COLOURS * i + colour);
+  }
+
+  private tick(now: number): void {
+    requestAnimationFrame((next) => this.tick(next));
+    const begin = performance.now();
+    const frame = this.ready;
+    this.ready = undefined;
+    if (frame) this.draw(frame);
+    if (!this.busy && this.playing && this.system && this.flying) {
+      const elapsed = Math.min(now - this.lastAsk, 50) / 1000;
+      this.lastAsk = now;
+      this.ask(this.t + elapsed * this.hitsPerSecond * this.pace);
+    }
+    if (frame && this.lastFrame) {
+      this.timing.costs.push(performance.now() - begin);
+      this.timing.intervals.push(now - this.lastFrame);
+      if (this.timing.costs.length > 600) {
+        this.timing.costs.shift();
+        this.timing.intervals.shift();
+      }
+    }
+    this.lastFrame = now;
+  }
+
+  private ask(t: number): void {
+    this.busy = true;
+    const { generation } = this;
+    this.client.frame(t, BUDGET).then(
+      (frame) => {
+        if (generation === this.generation) this.ready = frame;
+      },
+      (error: Error) => this.hooks.state(error.message),
+    ).finally(() => (this.busy = false));
+  }
+
+  private draw(frame: Frame): void {
+    ++this.timing.frames;
+    this.t = frame.t;
+    this.flying = frame.flying;
+    this.hits += frame.hits.length / 10;
+    this.trace.add(frame.hits);
+    this.table.step(frame);
+    this.section.step(frame.hits);
+    if (frame.ended.length && this.particles === 1) {
+      const { why, t } = frame.ended.at(-1)!;
+      this.note = `${why} at t = ${plain(t)}`;
+      this.hooks.say(`The particle ended: ${this.note}, after ${this.hits} hits.`);
+    }
+    if (this.flying === 0) this.goOn();
+    this.report();
+  }
+
+  /** All have ended: the file's next trajectories follow. */
+  private goOn(): void {
+    if (this.waiting || !("seed" in this.from) || !this.system) return;
+    const { system, generation } = this;
+    this.waiting = true;
+    setTimeout(() => {
+      this.waiting = false;
+      if (generation === this.generation && this.playing) void this.start(system, this.nextOfFile(), this.particles > 64);
+    }, 700);
+  }
+
+  private report(): void {
+    const parts = [
+      this.flying === 1 ? "1 particle" : `${count(this.flying)} particles`,
+      `t = ${plain(this.t)}`,
+      `${count(this.hits)} hits`,
+      this.decisions,
+      this.note,
+    ];
+    this.hooks.state(parts.filter(Boolean).join("  ·  "));
+  }
+
+  private async countDecisions(): Promise<void> {
+    if (!this.flying || this.busy) return;
+    const { generation } = this;
+    const { filter, exact } = await this.client.ask({ do: "decisions" });
+    if (generation !== this.generation || exact === undefined) return;
+    this.decisions = `${count((filter ?? 0) + exact)} decisions, ${exact ? count(exact) : "none"} of them in exact arithmetic`;
+  }
+}
+
+/** A start, or many about it: a fan of directions from one point, or the file's own starts one after the other. */
+function starts(from: Start, n: number): Start[] {
+  if (n === 1) return [from];
+  return Array.from({ length: n }, (_, i): Start => {
+    const off = FAN * (i / (n - 1) - 0.5);
+    if ("seed" in from) return { seed: from.seed, trajectory: from.trajectory + i };
+    if ("s" in from) return { s: from.s, v: Math.max(-0.9999, Math.min(0.9999, from.v + off)) };
+    const [vx, vy] = from.velocity;
+    const [c, s] = [Math.cos(off), Math.sin(off)];
+    return { position: from.position, velocity: [c * vx - s * vy, s * vx + c * vy] };
+  });
+}

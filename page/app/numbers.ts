@@ -1,0 +1,265 @@
+// The numbers of the system, live: ensembles whose sizes double, each with its digest and the command that prints the same.
+import uPlot from "uplot";
+import { Client } from "./client";
+import { ink } from "./palette";
+import type { System } from "./protocol";
+import { copy, count, make, plain, withError } from "./words";
+
+type Result = any; // what `carom ANALYSIS --json` prints, with the command
+
+interface Kind {
+  analysis: string;
+  heading: string;
+  first: number;
+  options: object;
+  facts(result: Result): [string, string][];
+  plot(result: Result): { options: Partial<uPlot.Options>; data: uPlot.AlignedData };
+}
+
+const PATIENCE = 5; // seconds that one ensemble may take before the doubling waits
+
+/** Both axes logarithmic, no farther than the data. */
+const logarithmic: uPlot.Scales = {
+  x: { time: false, distr: 3, range: (_u, min, max) => [min, max] },
+  y: { distr: 3, range: (_u, min, max) => [min / 1.3, max * 1.3] },
+};
+
+const escape: Kind = {
+  analysis: "escape",
+  heading: "Survival",
+  first: 1000,
+  options: {},
+  facts({ fit, trajectories, survived }) {
+    const facts: [string, string][] = [];
+    if (fit?.model === "exponential" && fit.rate !== undefined) facts.push(["escape rate", withError(fit.rate, fit.stderr)]);
+    if (fit?.model === "power" && fit.exponent !== undefined) facts.push(["tail exponent", withError(fit.exponent, fit.stderr)]);
+    if (fit?.window) facts.push(["fitted from", `t = ${plain(fit.window[0])}`]);
+    facts.push(["still inside", `${count(survived)} of ${count(trajectories)}`]);
+    return facts;
+  },
+  plot({ survival, fit }) {
+    const rows = survival.filter((row: Result) => row.p > 0 && row.t > 0);
+    const t = rows.map((row: Result) => row.t);
+    const floor = 1 / (3 * survival.length * 1e6);
+    const curve = t.map((x: number) => {
+      if (!fit?.amplitude || x < fit.window[0]) return null;
+      const p = fit.model === "power" ? fit.amplitude * x ** -fit.exponent : fit.amplitude * Math.exp(-fit.rate * x);
+      return p > rows.at(-1).p / 3 ? p : null;
+    });
+    const colours = ink();
+    return {
+      options: {
+        scales: logarithmic,
+        series: [{ label: "t" }, { stroke: "transparent", points: { show: false } }, { stroke: "transparent", points: { show: false } },
+          { label: "p(t)", stroke: colours.ink, width: 1, points: { show: true, size: 4, fill: colours.paper } },
+          { label: "fit", stroke: colours.accent, width: 1.5, points: { show: false } }],
+        bands: [{ series: [2, 1], fill: colours.rule }],
+      },
+      data: [t, rows.map((r: Result) => Math.max(r.low, floor)), rows.map((r: Result) => r.high), rows.map((r: Result) => r.p), curve],
+    };
+  },
+};
+
+const lyapunov: Kind = {
+  analysis: "lyapunov",
+  heading: "Lyapunov exponent",
+  first: 16,
+  options: {},
+  facts({ lambda, per_collision, chaotic_share, chaotic_lambda }) {
+    const facts: [string, string][] = [];
+    if (lambda?.[0]) facts.push(["λ, all orbits", withError(lambda[0].value, lambda[0].stderr)]);
+    if (chaotic_share && chaotic_share.value < 1 && chaotic_lambda) facts.push(["λ, chaotic ones", withError(chaotic_lambda.value, chaotic_lambda.stderr)]);
+    if (per_collision?.[0]) facts.push(["a hit", withError(per_collision[0].value, per_collision[0].stderr)]);
+    if (chaotic_share) facts.push(["chaotic share", withError(chaotic_share.value, chaotic_share.stderr)]);
+    return facts;
+  },
+  plot({ distribution = [] }) {
+    const colours = ink();
+    const filled = distribution.filter((bin: Result) => bin.count > 0);
+    if (!filled.length) return { options: { series: [{}, {}] }, data: [[], []] };
+    const [low, high] = [filled[0].from, filled.at(-1).to];
+    const bins = distribution.filter((bin: Result) => bin.from >= low && bin.to <= high);
+    // Not more bars than orbits can fill.
+    const orbits = filled.reduce((sum: number, bin: Result) => sum + bin.count, 0);
+    const join = Math.max(1, Math.ceil(bins.length / Math.max(8, Math.min(80, 2 * Math.cbrt(orbits) * 2))));
+    const x: number[] = [];
+    const y: number[] = [];
+    for (let i = 0; i < bins.length; i += join) {
+      x.push(bins[i].from);
+      y.push(bins.slice(i, i + join).reduce((sum: number, bin: Result) => sum + bin.count, 0));
+    }
+    x.push(bins.at(-1).to);
+    y.push(0);
+    return {
+      options: {
+        scales: { x: { time: false }, y: { range: (_u, _min, max) => [0, 1.1 * max] } },
+        series: [{ label: "exponent of an orbit" }, { label: "orbits", stroke: colours.accent, width: 1.2, fill: colours.rule,
+          paths: uPlot.paths.stepped!({ align: 1 }), points: { show: false } }],
+      },
+      data: [x, y],
+    };
+  },
+};
+
+const diffusion: Kind = {
+  analysis: "diffusion",
+  heading: "Mean square displacement",
+  first: 250,
+  options: {},
+  facts({ D, exponent }) {
+    const facts: [string, string][] = [];
+    if (D?.value != null) facts.push(["D", withError(D.value, D.stderr)]);
+    if (exponent?.value != null) facts.push(["exponent", withError(exponent.value, exponent.stderr)]);
+    return facts;
+  },
+  plot({ msd }) {
+    const colours = ink();
+    const rows = msd.filter((row: Result) => row.value > 0 && row.t > 0);
+    return {
+      options: {
+        scales: logarithmic,
+        series: [{ label: "t" }, { label: "MSD", stroke: colours.accent, width: 1.2, points: { show: true, size: 4, fill: colours.paper } }],
+      },
+      data: [rows.map((row: Result) => row.t), rows.map((row: Result) => row.value)],
+    };
+  },
+};
+
+class Panel {
+  readonly element: HTMLElement;
+  readonly kind: Kind;
+  private readonly size = make("span", { class: "size" });
+  private readonly chart = make("div", { class: "chart" });
+  private readonly facts = make("dl");
+  private readonly digest = make("span", { class: "digest" });
+  private readonly command = make("code");
+  private readonly copy = make("button", { type: "button", textContent: "copy command", class: "link" });
+  private readonly result = make("div", { class: "proof", hidden: true });
+  private plot?: uPlot;
+  private last?: Result;
+  next: number;
+  done = false;
+
+  constructor(kind: Kind) {
+    this.kind = kind;
+    this.next = kind.first;
+    this.copy.addEventListener("click", () => void copy(this.command.textContent!, this.copy));
+    this.result.append(make("span", {}, "digest ", this.digest), this.copy, this.command);
+    this.element = make("section", { class: "panel" }, make("h2", {}, kind.heading, " ", this.size), this.chart, this.facts, this.result);
+    this.element.dataset.analysis = kind.analysis;
+    new ResizeObserver(() => this.plot?.setSize(this.room())).observe(this.chart);
+  }
+
+  show(result: Result): void {
+    this.last = result;
+    this.size.textContent = `${count(result.trajectories ?? result.orbits)} trajectories`;
+    this.facts.replaceChildren(...this.kind.facts(result).flatMap(([name, value]) => [make("dt", { textContent: name }), make("dd", { textContent: value })]));
+    this.digest.textContent = result.digest;
+    this.command.textContent = result.command;
+    this.result.hidden = false;
+    this.draw();
+  }
+
+  refuse(text: string): void {
+    this.done = true;
+    if (this.last) return;
+    this.chart.replaceChildren(make("p", { class: "note", textContent: text }));
+  }
+
+  draw(): void {
+    if (!this.last) return;
+    const { options, data } = this.kind.plot(this.last);
+    const colours = ink();
+    const axis: uPlot.Axis = {
+      stroke: colours.soft, font: `12px ${colours.font}`, labelFont: `12px ${colours.font}`, labelSize: 18,
+      grid: { stroke: colours.rule, width: 1 }, ticks: { show: false }, size: 28, gap: 4,
+    };
+    const isLogarithmic = options.scales?.x?.distr === 3;
+    // Of a logarithmic axis: powers of ten only, so that few lines are drawn.
+    const powers: Partial<uPlot.Axis> = {
+      splits: (_u, _axis, min, max) => {
+        const [low, high] = [Math.ceil(Math.log10(min) - 1e-9), Math.floor(Math.log10(max) + 1e-9)];
+        const step = Math.max(1, Math.ceil((high - low) / 5));
+        return Array.from({ length: Math.max(0, Math.floor((high - low) / step) + 1) }, (_, i) => 10 ** (high - i * step)).reverse();
+      },
+      values: (_u, splits) => splits.map(label),
+      filter: (_u, splits) => splits,
+    };
+    this.plot?.destroy();
+    this.plot = new uPlot({
+      ...this.room(),
+      legend: { show: false },
+      cursor: { show: false },
+      padding: [8, 12, 0, 0],
+      ...options,
+      axes: [
+        { ...axis, label: options.series?.[0]?.label as string, ...(isLogarithmic ? powers : {}) },
+        { ...axis, size: 46, ...(options.scales?.y?.distr === 3 ? powers : {}) },
+      ],
+    } as uPlot.Options, data, this.chart);
+    this.chart.querySelectorAll(".note").forEach((note) => note.remove());
+    const facts = this.kind.facts(this.last).map(([name, value]) => `${name} ${value}`).join("; ");
+    this.chart.setAttribute("role", "img");
+    this.chart.setAttribute("aria-label", `${this.kind.heading}, ${this.size.textContent}: ${facts}`);
+  }
+
+  private room(): { width: number; height: number } {
+    return { width: Math.max(120, this.chart.clientWidth), height: Math.max(90, this.chart.clientHeight) };
+  }
+}
+
+function label(value: number): string {
+  if (value >= 0.01 && value < 1e5) return String(Number(value.toPrecision(1)));
+  const digits = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+  const power = Math.round(Math.log10(value));
+  return `10${power < 0 ? "⁻" : ""}${String(Math.abs(power)).split("").map((d) => digits[Number(d)]).join("")}`;
+}
+
+export class Numbers {
+  private panels: Panel[] = [];
+  private client?: Client;
+  private run = 0;
+
+  constructor(private readonly place: HTMLElement) {}
+
+  /** Begins anew for a system; `name` is its built-in name where the text is unchanged. */
+  async show(text: string, name: string | undefined, system: System): Promise<void> {
+    const run = ++this.run;
+    const holes = system.walls.some((wall) => wall.hole);
+    const kinds = [holes && escape, system.lattice && diffusion, lyapunov].filter((k): k is Kind => !!k);
+    this.panels = kinds.map((kind) => new Panel({ ...kind, options: kind === lyapunov && holes ? { closed: true } : {} }));
+    this.place.replaceChildren(...this.panels.map((panel) => panel.element));
+    this.client?.stop();
+    const client = (this.client = new Client());
+    try {
+      const { system: id } = await client.call({ do: "load", toml: text, ...(name ? { name } : {}) });
+      const limit = Number(system.keys.find((key) => key.section === "run" && key.key === "trajectories")?.value) || 1e5;
+      while (run === this.run && this.panels.some((panel) => !panel.done)) {
+        for (const panel of this.panels) {
+          if (panel.done || run !== this.run) continue;
+          await this.advance(client, id, panel, limit);
+        }
+      }
+    } catch (error) {
+      if (run === this.run) throw error;
+    }
+  }
+
+  recolour(): void {
+    for (const panel of this.panels) panel.draw();
+  }
+
+  private async advance(client: Client, system: number, panel: Panel, limit: number): Promise<void> {
+    const begin = performance.now();
+    try {
+      const { analysis, options } = panel.kind;
+      const trajectories = Math.min(panel.next, limit);
+      const result = await client.call({ do: "ensemble", analysis, system, options: { trajectories, ...options } });
+      panel.show(result);
+      panel.next *= 2;
+      panel.done = trajectories === limit || performance.now() - begin > 1000 * PATIENCE;
+    } catch (error) {
+      panel.refuse((error as Error).message);
+    }
+  }
+}

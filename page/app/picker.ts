@@ -1,0 +1,85 @@
+// The built-in systems, with a picture of each: its walls, as the engine gives them.
+import type { Client } from "./client";
+import type { System } from "./protocol";
+import { make } from "./words";
+
+export interface Builtin {
+  name: string;
+  title: string;
+}
+
+/** Outlines of a system as an SVG drawing. */
+export function outline(system: System, width: number, height: number): SVGSVGElement {
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+  svg.setAttribute("aria-hidden", "true");
+  const [x0, y0, x1, y1] = system.box;
+  const k = Math.min((width - 6) / (x1 - x0 || 1), (height - 6) / (y1 - y0 || 1));
+  const px = (x: number) => (width / 2 + (x - (x0 + x1) / 2) * k).toFixed(1);
+  const py = (y: number) => (height / 2 - (y - (y0 + y1) / 2) * k).toFixed(1);
+  const draw = (d: string, hole: boolean) => {
+    const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
+    path.setAttribute("d", d);
+    if (hole) path.setAttribute("class", "hole");
+    svg.append(path);
+  };
+  for (const wall of system.walls) {
+    let d = "";
+    for (let i = 0; i < wall.points.length; i += 2) d += `${i ? "L" : "M"}${px(wall.points[i])} ${py(wall.points[i + 1])}`;
+    draw(wall.closed ? `${d}Z` : d, wall.hole);
+  }
+  if (system.walls.length === 0) {
+    for (const r of [0.2, 0.45, 0.75]) {
+      const [a, b] = [(r * (height - 10)) / 2, height / 2];
+      draw(`M${width / 2 - a} ${b}a${a} ${a} 0 1 0 ${2 * a} 0a${a} ${a} 0 1 0 ${-2 * a} 0`, true);
+    }
+  }
+  return svg;
+}
+
+export class Picker {
+  private drawn = false;
+
+  constructor(
+    private readonly dialog: HTMLDialogElement,
+    private readonly list: HTMLElement,
+    private readonly systems: Builtin[],
+    private readonly client: () => Client,
+    private readonly picked: (name: string) => void,
+  ) {
+    this.dialog.addEventListener("click", (event) => {
+      if (event.target === this.dialog) this.dialog.close();
+    });
+    for (const system of systems) {
+      const button = make("button", { type: "button", class: "system" }, make("span", { class: "thumb" }),
+        make("b", { textContent: system.name }), make("span", { textContent: system.title }));
+      button.dataset.name = system.name;
+      button.addEventListener("click", () => {
+        this.dialog.close();
+        this.picked(system.name);
+      });
+      this.list.append(button);
+    }
+  }
+
+  open(): void {
+    this.dialog.showModal();
+    if (!this.drawn) void this.draw();
+  }
+
+  private async draw(): Promise<void> {
+    this.drawn = true;
+    const client = this.client();
+    for (const { name } of this.systems) {
+      const place = this.list.querySelector(`[data-name="${name}"] .thumb`)!;
+      try {
+        const { toml } = await client.call({ do: "toml", name });
+        const system: System = await client.call({ do: "load", toml });
+        place.replaceChildren(outline(system, 96, 60));
+        await client.call({ do: "unload", system: system.system });
+      } catch {
+        place.textContent = "";
+      }
+    }
+  }
+}

@@ -1,0 +1,73 @@
+// What the page and its workers say to each other, and the objects of the engine's answers.
+
+export type Start =
+  | { position: [number, number]; velocity: [number, number] }
+  | { s: number; v: number }
+  | { seed: number; trajectory: number };
+
+export interface Wall {
+  name: string;
+  points: number[];
+  closed: boolean;
+  hole: boolean;
+  length: number;
+  offset: number;
+}
+
+/** A number of the file that a slider can change. */
+export interface Key {
+  section: string;
+  key: string;
+  value: number | string;
+  unit?: string;
+  meaning?: string;
+  line: number;
+}
+
+export interface System {
+  system: number;
+  title: string;
+  keys: Key[];
+  walls: Wall[];
+  box: [number, number, number, number];
+  lattice: [number, number, number, number] | null;
+  length: number;
+  potential: boolean;
+  field: number;
+}
+
+export type Request =
+  | { do: "call"; request: object }
+  | { do: "begin"; system: number; potential: boolean; starts: Start[]; slots: number[]; keep: boolean }
+  | { do: "frame"; t: number; budget: number }
+  | { do: "decisions" };
+
+/** The answer to `begin`. */
+export interface Begun {
+  /** Starts that the engine refused, with its text. */
+  refused: { slot: number; text: string }[];
+  /** x, y, vx, vy of each start that was accepted, in the order of `slots` less the refused. */
+  states: Float64Array;
+  slots: number[];
+  /** Mean time between hits of the first orbit; 0 where it has none. */
+  pace: number;
+}
+
+/** Numbers of a row of a frame: the orbit's slot, then the hit. */
+export const FRAME_ROW = 10;
+
+/** The answer to `frame`. */
+export interface Frame {
+  /** The time that was reached: less than asked for where the budget was spent. */
+  t: number;
+  /** x, y for each orbit that still flies. */
+  dots: Float64Array;
+  slots: Uint32Array;
+  /** Rows of FRAME_ROW: the hits since the last frame. */
+  hits: Float64Array;
+  ended: { slot: number; why: string; t: number; x: number; y: number }[];
+  flying: number;
+  cost: number;
+}
+
+export type Answer = { id: number; result: unknown } | { id: number; error: string; line?: number; column?: number };

@@ -1,0 +1,56 @@
+// The hits seen so far, for redrawing and for export. The oldest go when there are too many.
+import { FRAME_ROW } from "./protocol";
+
+const CHUNK = 1 << 13; // rows
+const MOST = 40; // chunks
+
+export class Trace {
+  private chunks: Float64Array[] = [];
+  /** Rows in the last chunk. */
+  private filled = CHUNK;
+  /** The state each orbit started in: x, y, vx, vy. */
+  readonly starts = new Map<number, ArrayLike<number>>();
+  rows = 0;
+  dropped = false;
+
+  clear(): void {
+    this.chunks = [];
+    this.filled = CHUNK;
+    this.starts.clear();
+    this.rows = 0;
+    this.dropped = false;
+  }
+
+  add(hits: Float64Array): void {
+    for (let at = 0; at < hits.length; ) {
+      if (this.filled === CHUNK) {
+        this.chunks.push(new Float64Array(CHUNK * FRAME_ROW));
+        this.filled = 0;
+        if (this.chunks.length > MOST) {
+          this.chunks.shift();
+          this.rows -= CHUNK;
+          this.dropped = true;
+        }
+      }
+      const rows = Math.min(CHUNK - this.filled, (hits.length - at) / FRAME_ROW);
+      this.chunks.at(-1)!.set(hits.subarray(at, at + rows * FRAME_ROW), this.filled * FRAME_ROW);
+      this.filled += rows;
+      this.rows += rows;
+      at += rows * FRAME_ROW;
+    }
+  }
+
+  /** The last rows, at most `most`, in their order. */
+  *blocks(most = Infinity): Generator<Float64Array> {
+    let skip = Math.max(0, this.rows - most);
+    for (let i = 0; i < this.chunks.length; ++i) {
+      const rows = i + 1 === this.chunks.length ? this.filled : CHUNK;
+      if (skip >= rows) {
+        skip -= rows;
+        continue;
+      }
+      yield this.chunks[i].subarray(skip * FRAME_ROW, rows * FRAME_ROW);
+      skip = 0;
+    }
+  }
+}
