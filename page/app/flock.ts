@@ -1,10 +1,11 @@
 // The orbits that fly: their next hits are read ahead in chunks, and each frame takes those whose time has come.
 import { Engine, EngineError, ROW } from "./engine";
 import { along } from "./flight";
-import { FRAME_ROW, type Begun, type Frame, type Start } from "./protocol";
+import { FRAME_ROW, type Begun, type Frame, type Request } from "./protocol";
 
 const CHUNK = 16; // hits read at a time
 const MOST_HITS = 20000; // in a frame
+const MOST_TRAIL = 3000; // places of paths in a frame
 
 interface Orbit {
   slot: number;
@@ -20,74 +21,84 @@ interface Orbit {
   y: number;
   vx: number;
   vy: number;
-  end?: { why: string; t: number };
+  end?: { why: string; t: number; hole?: string };
 }
 
 export class Flock {
+  grain = Infinity;
   private orbits: Orbit[] = [];
   private t = 0;
-  private potential = false;
+  private forces = false;
+  private walls = true;
   private step = Infinity; // of time, that is known to fit into the budget
-  private curvature = 0; // of flights, which the last hit of each orbit tells
+  private curvature = 0; // of a flight that has not met a wall yet: that of the flights before
 
   constructor(private readonly engine: Engine) {}
 
-  begin(system: number, potential: boolean, starts: Start[], slots: number[], keep: boolean): Begun {
-    if (!keep) {
+  begin(ask: Extract<Request, { do: "begin" }>): Begun {
+    if (!ask.keep) {
       this.forget(this.orbits);
       this.orbits = [];
       this.t = 0;
-      this.step = Infinity;
+      this.step = this.grain = Infinity;
       this.curvature = 0;
     }
-    this.potential = potential;
-    const refused: Begun["refused"] = [];
+    this.forces = ask.forces;
+    this.walls = ask.walls;
+    const refused: string[] = [];
     const begun: Orbit[] = [];
-    starts.forEach((start, i) => {
+    for (const start of ask.starts) {
       try {
-        const { orbit } = this.engine.call({ do: "orbit", system, start });
-        begun.push({ slot: slots[i], id: orbit, rows: new Float64Array(0), at: 0, born: this.t, t: 0, x: 0, y: 0, vx: 0, vy: 0 });
+        const { orbit, particles = 1 } = this.engine.call({ do: "orbit", system: ask.system, start });
+        for (let p = 0; p < particles; ++p) {
+          const slot = ask.slots[begun.length];
+          begun.push({ slot, id: orbit + p, rows: new Float64Array(0), at: 0, born: this.t, t: 0, x: 0, y: 0, vx: 0, vy: 0 });
+        }
       } catch (error) {
         if (!(error instanceof EngineError)) throw error;
-        refused.push({ slot: slots[i], text: error.message });
+        refused.push(error.message);
       }
-    });
-    const states = this.engine.places(Uint32Array.from(begun, (orbit) => orbit.id), 0).slice();
+    }
+    const states = this.places(begun, 0);
     begun.forEach((orbit, i) => {
       [orbit.x, orbit.y, orbit.vx, orbit.vy] = states.subarray(4 * i, 4 * i + 4);
-      this.read(orbit);
+      if (this.walls && (!this.forces || i === 0)) this.read(orbit);
     });
     this.orbits.push(...begun);
-    return { refused, states, slots: begun.map((orbit) => orbit.slot), pace: this.pace() };
+    const rows = begun[0]?.rows ?? [];
+    const pace = rows.length ? rows[rows.length - ROW] / (rows.length / ROW) : 0;
+    return { refused, states, slots: begun.map((orbit) => orbit.slot), pace };
   }
 
   /** Flies all orbits to time t, or as near to it as the budget (milliseconds) and the room for hits allow. */
   frame(t: number, budget: number): Frame {
     const begin = performance.now();
     const hits: number[] = [];
+    const trail: number[] = [];
     const ended: Frame["ended"] = [];
-    while (this.t < t && hits.length < MOST_HITS * FRAME_ROW) {
-      const spent = performance.now() - begin;
-      if (spent > budget) break;
-      const step = Math.min(t - this.t, this.step);
+    while (this.t < t && hits.length < MOST_HITS * FRAME_ROW && trail.length < 3 * MOST_TRAIL) {
+      if (performance.now() - begin > budget) break;
+      const step = Math.min(t - this.t, this.step, this.forces ? this.grain : Infinity);
       const before = performance.now();
       this.fly(this.t + step, hits, ended);
+      if (this.forces && this.orbits.length <= 64) this.follow(trail);
       const cost = performance.now() - before;
       if (cost > budget / 3) this.step = step / 2;
       else if (this.step < Infinity && cost < budget / 12) this.step *= 2;
     }
     const flying = this.orbits.length;
     const dots = new Float64Array(2 * flying);
-    const slots = new Uint32Array(flying);
-    if (this.potential && flying) {
-      const places = this.engine.places(Uint32Array.from(this.orbits, (orbit) => orbit.id), this.t);
+    const slots = Uint32Array.from(this.orbits, (orbit) => orbit.slot);
+    if (this.forces) {
+      const places = this.now();
       for (let i = 0; i < flying; ++i) dots.set(places.subarray(4 * i, 4 * i + 2), 2 * i);
+    } else {
+      this.orbits.forEach((orbit, i) => dots.set(this.place(orbit, this.t - orbit.born), 2 * i));
     }
-    this.orbits.forEach((orbit, i) => {
-      slots[i] = orbit.slot;
-      if (!this.potential) dots.set(this.place(orbit, this.t - orbit.born), 2 * i);
-    });
-    return { t: this.t, dots, slots, hits: Float64Array.from(hits), ended, flying, cost: performance.now() - begin };
+    return {
+      t: this.t, dots, slots, hits: Float64Array.from(hits), trail: Float64Array.from(trail), ended, flying,
+      cost: performance.now() - begin,
+    };
   }
 
   /** Decisions of the orbits that fly, summed. */
@@ -102,24 +113,13 @@ export class Flock {
   }
 
   private fly(t: number, hits: number[], ended: Frame["ended"]): void {
-    const gone: Orbit[] = [];
+    this.t = t;
+    if (!this.walls) return;
+    const gone = new Set<Orbit>();
     for (const orbit of this.orbits) {
       const now = t - orbit.born;
-      for (;;) {
+      while (this.ahead(orbit, now)) {
         const { rows, at } = orbit;
-        if (at === rows.length) {
-          if (!orbit.end) {
-            this.read(orbit);
-            continue;
-          }
-          if (orbit.end.t <= now) {
-            const [x, y] = this.place(orbit, orbit.end.t);
-            ended.push({ slot: orbit.slot, ...orbit.end, x, y });
-            gone.push(orbit);
-          }
-          break;
-        }
-        if (rows[at] > now) break;
         hits.push(orbit.slot);
         for (let k = 0; k < ROW; ++k) hits.push(rows[at + k]);
         orbit.t = rows[at];
@@ -129,19 +129,36 @@ export class Flock {
         orbit.vy = rows[at + 4];
         orbit.at += ROW;
       }
+      if (orbit.end && orbit.at === orbit.rows.length && orbit.end.t <= now) {
+        const [x, y] = this.forces ? this.places([orbit], orbit.end.t) : this.place(orbit, orbit.end.t);
+        const { why, hole, t: end } = orbit.end;
+        ended.push({ slot: orbit.slot, why: hole ? `${why} through ${hole}` : why, t: end, x, y });
+        gone.add(orbit);
+      }
     }
-    if (gone.length) {
-      this.orbits = this.orbits.filter((orbit) => !gone.includes(orbit));
+    if (gone.size) {
+      this.orbits = this.orbits.filter((orbit) => !gone.has(orbit));
       this.forget(gone);
     }
-    this.t = t;
+  }
+
+  /** Whether the orbit's next hit is at time `now` or before. */
+  private ahead(orbit: Orbit, now: number): boolean {
+    if (orbit.at === orbit.rows.length) {
+      if (orbit.end) return false;
+      this.read(orbit);
+    }
+    return orbit.at < orbit.rows.length && orbit.rows[orbit.at] <= now;
   }
 
   private read(orbit: Orbit): void {
-    orbit.rows = this.engine.step(orbit.id, CHUNK).slice();
+    const chunk = this.forces ? 1 : CHUNK;
+    orbit.rows = this.engine.step(orbit.id, chunk).slice();
     orbit.at = 0;
     if (orbit.rows.length) this.curvature = orbit.rows[8];
-    if (orbit.rows.length < CHUNK * ROW) orbit.end = this.engine.call({ do: "ended", orbit: orbit.id });
+    if (orbit.rows.length === chunk * ROW) return;
+    const end = this.engine.call({ do: "ended", orbit: orbit.id });
+    if (end.why) orbit.end = end;
   }
 
   private place(orbit: Orbit, t: number): [number, number] {
@@ -149,18 +166,27 @@ export class Flock {
     return along(orbit.x, orbit.y, orbit.vx, orbit.vy, t - orbit.t, curvature);
   }
 
-  private pace(): number {
-    const rows = this.orbits.at(-1)?.rows;
-    return rows && rows.length ? rows[rows.length - ROW] / (rows.length / ROW) : 0;
+  private places(orbits: Orbit[], t: number): Float64Array {
+    return this.engine.places(Uint32Array.from(orbits, (orbit) => orbit.id), t).slice();
   }
 
-  private forget(orbits: Orbit[]): void {
-    for (const orbit of orbits) {
-      try {
-        this.engine.call({ do: "forget", orbit: orbit.id });
-      } catch {
-        // It went with its system.
-      }
+  /** States of all orbits now; those that were born later are at an earlier time of their own. */
+  private now(): Float64Array {
+    const states = new Float64Array(4 * this.orbits.length);
+    for (let from = 0, to = 0; from < this.orbits.length; from = to) {
+      const { born } = this.orbits[from];
+      while (to < this.orbits.length && this.orbits[to].born === born) ++to;
+      states.set(this.places(this.orbits.slice(from, to), this.t - born), 4 * from);
     }
+    return states;
+  }
+
+  private follow(trail: number[]): void {
+    const states = this.now();
+    this.orbits.forEach((orbit, i) => trail.push(orbit.slot, states[4 * i], states[4 * i + 1]));
+  }
+
+  private forget(orbits: Iterable<Orbit>): void {
+    for (const orbit of orbits) this.engine.call({ do: "forget", orbit: orbit.id });
   }
 }

@@ -25,10 +25,10 @@ export async function findHandles(client: Client, text: string, system: System):
     try {
       const other: System = await client.call({ do: "load", toml: changed });
       await client.call({ do: "unload", system: other.system });
-      const found = farthest(system, other);
+      const size = Math.hypot(system.box[2] - system.box[0], system.box[3] - system.box[1]);
+      const found = farthest(system, other, (x, y) => handles.every((h) => Math.hypot(h.x - x, h.y - y) > 0.03 * size));
       if (!found) continue;
       const by = larger - value;
-      if (handles.some((h) => Math.hypot(h.x - found.x, h.y - found.y) < 1e-3 * Math.hypot(system.box[2] - system.box[0], system.box[3] - system.box[1]))) continue;
       handles.push({ key, value, x: found.x, y: found.y, dx: found.dx / by, dy: found.dy / by });
     } catch {
       // A larger value is refused: no handle.
@@ -37,22 +37,25 @@ export async function findHandles(client: Client, text: string, system: System):
   return handles;
 }
 
-function farthest(a: System, b: System): { x: number; y: number; dx: number; dy: number } | undefined {
+/** Of the points that move at least half as far as any, the farthest that is free. */
+function farthest(a: System, b: System, free: (x: number, y: number) => boolean): { x: number; y: number; dx: number; dy: number } | undefined {
   let best;
   let reach = 0;
+  let all = 0;
   for (let w = 0; w < a.walls.length; ++w) {
     const [from, to] = [a.walls[w].points, b.walls[w]?.points];
     if (from.length !== to?.length) return undefined;
     for (let i = 0; i < from.length; i += 2) {
       const [dx, dy] = [to[i] - from[i], to[i + 1] - from[i + 1]];
       const moved = Math.hypot(dx, dy);
-      if (moved > reach * (1 + 1e-9)) {
+      all = Math.max(all, moved);
+      if (moved > reach * (1 + 1e-9) && free(from[i], from[i + 1])) {
         reach = moved;
         best = { x: from[i], y: from[i + 1], dx, dy };
       }
     }
   }
-  return best;
+  return reach > 0.5 * all ? best : undefined;
 }
 
 /** The value that brings a handle's point nearest to a place. */

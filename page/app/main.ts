@@ -101,6 +101,7 @@ function shown(loaded: System, fresh: boolean): void {
   byId("title").textContent = loaded.title || name || "a system of your own";
   document.title = `${loaded.title || name || "Carom"} · Carom`;
   sliders.show(loaded.keys.filter((key) => key.section !== "run"), fresh);
+  document.querySelector("main")!.classList.toggle("no-walls", loaded.walls.length === 0);
   trace.clear();
   table.show(loaded);
   section.show(loaded);

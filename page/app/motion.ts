@@ -23,8 +23,8 @@ export class Motion {
   hitsPerSecond = 10;
   particles = 1;
   from: Start = { seed: 1, trajectory: 0 };
-  /** For tests: frames drawn, and what each took. */
-  readonly timing = { frames: 0, costs: [] as number[], intervals: [] as number[] };
+  /** For tests: frames drawn, when the first one was, and what each took. */
+  readonly timing = { frames: 0, first: 0, costs: [] as number[], intervals: [] as number[] };
   private system?: System;
   private t = 0;
   private pace = 1;
@@ -33,7 +33,7 @@ export class Motion {
   private hits = 0;
   private flying = 0;
   private busy = false;
-  private ready?: Frame;
+  private ready: Frame[] = [];
   private lastAsk = 0;
   private lastFrame = 0;
   private generation = 0;
@@ -66,13 +66,14 @@ export class Motion {
     const n = this.particles;
     const keep = !fresh && this.system === system && n <= 64 && this.flying + n <= MOST;
     if (!keep) this.forget();
-    const slots = this.slots(n);
-    const generation = ++this.generation;
-    const begun = await this.client.begin({ do: "begin", system: system.system, potential: system.potential, starts: starts(from, n), slots, keep });
-    if (generation !== this.generation && !keep) return true;
-    this.ready = undefined;
+    const generation = keep ? this.generation : ++this.generation;
+    const begun = await this.client.begin({
+      do: "begin", system: system.system, forces: system.potential, walls: system.walls.length > 0,
+      starts: starts(from, n), slots: this.slots(n * Math.max(1, system.particles)), keep,
+    });
+    if (generation !== this.generation) return true;
     this.system = system;
-    this.note = begun.refused.length ? begun.refused[0].text : "";
+    this.note = begun.refused[0] ?? "";
     if (begun.slots.length === 0) {
       this.report();
       return false;
@@ -84,8 +85,12 @@ export class Motion {
     const box = system.box;
     const speed = Math.hypot(begun.states[2], begun.states[3]) || 1;
     this.pace = begun.pace || (0.5 * Math.hypot(box[2] - box[0], box[3] - box[1])) / speed;
+    if (system.potential) await this.client.ask({ do: "grain", grain: this.pace / 24 });
     this.hooks.say(n === 1 ? "One particle started." : `${n} particles started.`);
-    if (reached > 0) this.ready = await this.client.frame(reached, 40);
+    if (reached > 0) {
+      const frame = await this.client.frame(reached, 40);
+      if (generation === this.generation) this.ready.push(frame);
+    }
     return true;
   }
 
@@ -104,7 +109,7 @@ export class Motion {
     this.t = 0;
     this.hits = 0;
     this.flying = 0;
-    this.ready = undefined;
+    this.ready = [];
     this.decisions = "";
     this.table.clear(this.particles);
     this.section.clear();
@@ -123,15 +128,15 @@ export class Motion {
   private tick(now: number): void {
     requestAnimationFrame((next) => this.tick(next));
     const begin = performance.now();
-    const frame = this.ready;
-    this.ready = undefined;
-    if (frame) this.draw(frame);
+    const frames = this.ready;
+    this.ready = [];
+    for (const frame of frames) this.draw(frame);
     if (!this.busy && this.playing && this.system && this.flying) {
       const elapsed = Math.min(now - this.lastAsk, 50) / 1000;
       this.lastAsk = now;
       this.ask(this.t + elapsed * this.hitsPerSecond * this.pace);
     }
-    if (frame && this.lastFrame) {
+    if (frames.length && this.lastFrame) {
       this.timing.costs.push(performance.now() - begin);
       this.timing.intervals.push(now - this.lastFrame);
       if (this.timing.costs.length > 600) {
@@ -147,18 +152,19 @@ export class Motion {
     const { generation } = this;
     this.client.frame(t, BUDGET).then(
       (frame) => {
-        if (generation === this.generation) this.ready = frame;
+        if (generation === this.generation) this.ready.push(frame);
       },
       (error: Error) => this.hooks.state(error.message),
     ).finally(() => (this.busy = false));
   }
 
   private draw(frame: Frame): void {
-    ++this.timing.frames;
+    if (this.timing.frames++ === 0) this.timing.first = performance.now();
     this.t = frame.t;
     this.flying = frame.flying;
     this.hits += frame.hits.length / 10;
     this.trace.add(frame.hits);
+    this.trace.addTrail(frame.trail);
     this.table.step(frame);
     this.section.step(frame.hits);
     if (frame.ended.length && this.particles === 1) {

@@ -8,12 +8,12 @@ export interface Builtin {
   title: string;
 }
 
-/** Outlines of a system as an SVG drawing. */
-export function outline(system: System, width: number, height: number): SVGSVGElement {
+/** A system as a small drawing: its walls, and the path of a particle where forces act. */
+function outline(system: System, trail: Float64Array, width: number, height: number): SVGSVGElement {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
   svg.setAttribute("aria-hidden", "true");
-  const [x0, y0, x1, y1] = system.box;
+  const [x0, y0, x1, y1] = trail.length ? around(trail) : system.box;
   const k = Math.min((width - 6) / (x1 - x0 || 1), (height - 6) / (y1 - y0 || 1));
   const px = (x: number) => (width / 2 + (x - (x0 + x1) / 2) * k).toFixed(1);
   const py = (y: number) => (height / 2 - (y - (y0 + y1) / 2) * k).toFixed(1);
@@ -28,13 +28,25 @@ export function outline(system: System, width: number, height: number): SVGSVGEl
     for (let i = 0; i < wall.points.length; i += 2) d += `${i ? "L" : "M"}${px(wall.points[i])} ${py(wall.points[i + 1])}`;
     draw(wall.closed ? `${d}Z` : d, wall.hole);
   }
-  if (system.walls.length === 0) {
-    for (const r of [0.2, 0.45, 0.75]) {
-      const [a, b] = [(r * (height - 10)) / 2, height / 2];
-      draw(`M${width / 2 - a} ${b}a${a} ${a} 0 1 0 ${2 * a} 0a${a} ${a} 0 1 0 ${-2 * a} 0`, true);
-    }
-  }
+  const path = Array.from({ length: trail.length / 3 }, (_, i) => `${px(trail[3 * i + 1])} ${py(trail[3 * i + 2])}`);
+  if (path.length) draw(`M${path.join("L")}`, true);
   return svg;
+}
+
+function around(trail: Float64Array): [number, number, number, number] {
+  const xs = trail.filter((_, i) => i % 3 === 1);
+  const ys = trail.filter((_, i) => i % 3 === 2);
+  return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
+}
+
+/** A piece of the first path of a system without walls. */
+async function pathOf(client: Client, system: System): Promise<Float64Array> {
+  if (system.walls.length > 0) return new Float64Array(0);
+  const start = { seed: 1, trajectory: 0 };
+  await client.begin({ do: "begin", system: system.system, forces: true, walls: false, starts: [start], slots: [0], keep: false });
+  await client.ask({ do: "grain", grain: 0.1 });
+  const { trail } = await client.frame(40, 150);
+  return trail;
 }
 
 export class Picker {
@@ -75,7 +87,7 @@ export class Picker {
       try {
         const { toml } = await client.call({ do: "toml", name });
         const system: System = await client.call({ do: "load", toml });
-        place.replaceChildren(outline(system, 96, 60));
+        place.replaceChildren(outline(system, await pathOf(client, system), 96, 60));
         await client.call({ do: "unload", system: system.system });
       } catch {
         place.textContent = "";

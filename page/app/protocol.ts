@@ -18,9 +18,10 @@ export interface Wall {
 export interface Key {
   section: string;
   key: string;
-  value: number | string;
-  unit?: string;
-  meaning?: string;
+  value: number;
+  /** number, whole number, angle, ... */
+  type: string;
+  meaning: string;
   line: number;
 }
 
@@ -32,21 +33,25 @@ export interface System {
   box: [number, number, number, number];
   lattice: [number, number, number, number] | null;
   length: number;
+  /** Forces act: the paths are neither lines nor arcs. */
   potential: boolean;
   field: number;
+  particles: number;
 }
 
 export type Request =
   | { do: "call"; request: object }
-  | { do: "begin"; system: number; potential: boolean; starts: Start[]; slots: number[]; keep: boolean }
+  | { do: "begin"; system: number; forces: boolean; walls: boolean; starts: Start[]; slots: number[]; keep: boolean }
+  /** Under forces paths are drawn through places this far apart in time. */
+  | { do: "grain"; grain: number }
   | { do: "frame"; t: number; budget: number }
   | { do: "decisions" };
 
 /** The answer to `begin`. */
 export interface Begun {
-  /** Starts that the engine refused, with its text. */
-  refused: { slot: number; text: string }[];
-  /** x, y, vx, vy of each start that was accepted, in the order of `slots` less the refused. */
+  /** Why the engine refused starts. */
+  refused: string[];
+  /** x, y, vx, vy of each particle that was started, in the order of `slots`. */
   states: Float64Array;
   slots: number[];
   /** Mean time between hits of the first orbit; 0 where it has none. */
@@ -65,6 +70,8 @@ export interface Frame {
   slots: Uint32Array;
   /** Rows of FRAME_ROW: the hits since the last frame. */
   hits: Float64Array;
+  /** Under forces, rows of three: slot, x, y along the paths. */
+  trail: Float64Array;
   ended: { slot: number; why: string; t: number; x: number; y: number }[];
   flying: number;
   cost: number;

@@ -26,7 +26,7 @@ export class Sliders {
       const value = Number(key.value);
       if (value < row.low || value > row.high) [row.low, row.high] = ends(value);
       [row.range.min, row.range.max] = [String(row.low), String(row.high)];
-      row.range.step = "any";
+      row.range.step = whole(key) ? "1" : "any";
       if (document.activeElement !== row.range) row.range.value = String(value);
       if (document.activeElement !== row.number) row.number.value = plain(value, 6).replace("\u2212", "-");
       rows.set(name, row);
@@ -40,17 +40,16 @@ export class Sliders {
 
   private row(key: Key): Row {
     const name = key.key.replace(/_/g, " ");
-    const meaning = [key.meaning, key.unit && `(${key.unit})`].filter(Boolean).join(" ");
     const range = make("input", { type: "range" });
     const number = make("input", { type: "text", inputMode: "decimal", autocomplete: "off" });
     range.setAttribute("aria-label", `${key.section} ${name}`);
     number.setAttribute("aria-label", `${key.section} ${name}, value`);
-    const label = make("span", { title: meaning, textContent: name });
+    const label = make("span", { title: key.meaning, textContent: name });
     make("div", { class: "slider" }, label, range, number);
     const [low, high] = ends(Number(key.value));
     const row: Row = { key, range, number, low, high };
     range.addEventListener("input", () => {
-      const value = rounded(Number(range.value), row.high - row.low);
+      const value = whole(row.key) ? range.value : rounded(Number(range.value), row.high - row.low);
       number.value = value;
       this.changed(row.key, value);
     });
@@ -60,6 +59,10 @@ export class Sliders {
     });
     return row;
   }
+}
+
+function whole(key: Key): boolean {
+  return /whole|integer/.test(key.type);
 }
 
 /** A range about a value: to its double, and over zero only where the value does so. */

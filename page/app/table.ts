@@ -104,7 +104,7 @@ export class Table {
 
   step(frame: Frame): void {
     this.frame = frame;
-    if (this.withPaths) this.addFlights(frame.hits);
+    if (this.withPaths) this.addPaths(frame.hits, frame.trail);
     for (const { slot, x, y } of frame.ended) this.gone.push({ slot, x, y });
     if (this.gone.length > 2000) this.gone.splice(0, this.gone.length - 2000);
     this.follow(frame);
@@ -142,16 +142,18 @@ export class Table {
   }
 
   private get withPaths(): boolean {
-    return this.orbits <= Table.WITH_PATHS && !this.system?.potential;
+    return this.orbits <= Table.WITH_PATHS;
   }
 
   private fit(): void {
-    if (this.system) this.view.fit(this.system.box, true, 14);
+    if (!this.system) return;
+    this.view.fit(this.system.box, true, 14);
+    if (this.system.lattice) this.view.kx = this.view.ky *= 0.4; // neighbours, too
   }
 
-  /** In a lattice the view grows with the orbit, until the reader moves it. */
+  /** In a lattice, and where no walls are, the view grows with the orbit, until the reader moves it. */
   private follow(frame: Frame): void {
-    if (!this.system?.lattice || this.view.moved || !frame.slots.length || this.orbits > 16) return;
+    if (!this.system || (!this.system.lattice && this.system.walls.length > 0) || this.view.moved || !frame.slots.length || this.orbits > 16) return;
     const { view } = this;
     let grown = false;
     for (let i = 0; i < frame.slots.length; ++i) {
@@ -159,7 +161,8 @@ export class Table {
       const py = view.py(frame.dots[2 * i + 1]);
       if (px < 0 || py < 0 || px > view.width || py > view.height) grown = true;
     }
-    if (!grown || view.kx * Math.hypot(this.system.lattice[0], this.system.lattice[1]) < 12) return;
+    const cell = this.system.lattice ?? [1, 0];
+    if (!grown || view.kx * Math.hypot(cell[0], cell[1]) < 12) return;
     view.zoom(0.7, view.width / 2, view.height / 2);
     view.moved = false;
     this.draw();
@@ -171,7 +174,8 @@ export class Table {
     this.last = new Map([...this.trace.starts].map(([slot, s]) => [slot, [0, s[0], s[1], s[2], s[3]]]));
     if (this.withPaths) {
       if (this.trace.rows > MOST_FLIGHTS) this.last.clear();
-      for (const block of this.trace.blocks(MOST_FLIGHTS)) this.addFlights(block);
+      if (this.system?.potential) for (const places of this.trace.trail) this.addTrail(places);
+      else for (const block of this.trace.blocks(MOST_FLIGHTS)) this.addFlights(block);
     }
     this.drawTop();
   }
@@ -225,6 +229,33 @@ export class Table {
     return cells;
   }
 
+  private addPaths(hits: Float64Array, trail: Float64Array): void {
+    if (this.system?.potential) this.addTrail(trail);
+    else this.addFlights(hits);
+  }
+
+  private addTrail(places: Float64Array): void {
+    const paths = new Map<number, Path2D>();
+    for (let at = 0; at < places.length; at += 3) {
+      const [slot, x, y] = places.subarray(at, at + 3);
+      const from = this.last.get(slot);
+      this.last.set(slot, [0, x, y, 0, 0]);
+      let path = paths.get(slot);
+      if (!path) {
+        paths.set(slot, (path = new Path2D()));
+        if (from) path.moveTo(this.view.px(from[1]), this.view.py(from[2]));
+      }
+      path.lineTo(this.view.px(x), this.view.py(y));
+    }
+    this.paths.lineWidth = 0.8;
+    this.paths.globalAlpha = 0.6;
+    for (const [slot, path] of paths) {
+      this.paths.strokeStyle = this.colour(slot);
+      this.paths.stroke(path);
+    }
+    this.paths.globalAlpha = 1;
+  }
+
   private addFlights(hits: Float64Array): void {
     const { paths: g, view } = this;
     const byColour = new Map<string, Path2D>();
@@ -268,7 +299,7 @@ export class Table {
           g.stroke(path);
         }
         g.beginPath();
-        g.arc(view.px(x), view.py(y), frame.slots.length > 40 ? 2 : 3.5, 0, 2 * Math.PI);
+        g.arc(view.px(x), view.py(y), this.orbits > 40 ? 2 : 3.5, 0, 2 * Math.PI);
         g.fill();
       });
     }

@@ -3,6 +3,7 @@ import { FRAME_ROW } from "./protocol";
 
 const CHUNK = 1 << 13; // rows
 const MOST = 40; // chunks
+const MOST_PLACES = 60000; // of paths under forces
 
 export class Trace {
   private chunks: Float64Array[] = [];
@@ -10,13 +11,18 @@ export class Trace {
   private filled = CHUNK;
   /** The state each orbit started in: x, y, vx, vy. */
   readonly starts = new Map<number, ArrayLike<number>>();
+  /** Under forces: slot, x, y along the paths, for all orbits one after the other in time. */
+  trail: Float64Array[] = [];
   rows = 0;
   dropped = false;
+  private placed = 0;
 
   clear(): void {
     this.chunks = [];
     this.filled = CHUNK;
     this.starts.clear();
+    this.trail = [];
+    this.placed = 0;
     this.rows = 0;
     this.dropped = false;
   }
@@ -38,6 +44,13 @@ export class Trace {
       this.rows += rows;
       at += rows * FRAME_ROW;
     }
+  }
+
+  addTrail(places: Float64Array): void {
+    if (!places.length) return;
+    this.trail.push(places);
+    this.placed += places.length / 3;
+    while (this.placed > MOST_PLACES) this.placed -= this.trail.shift()!.length / 3;
   }
 
   /** The last rows, at most `most`, in their order. */

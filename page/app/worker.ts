@@ -30,11 +30,15 @@ self.onmessage = async (event: MessageEvent) => {
         self.postMessage({ id, result: engine.call(ask.request) });
         break;
       case "begin":
-        self.postMessage({ id, result: flock.begin(ask.system, ask.potential, ask.starts, ask.slots, ask.keep) });
+        self.postMessage({ id, result: flock.begin(ask) });
+        break;
+      case "grain":
+        flock.grain = ask.grain;
+        self.postMessage({ id, result: null });
         break;
       case "frame": {
         const frame = flock.frame(ask.t, ask.budget);
-        self.postMessage({ id, result: frame }, [frame.dots.buffer, frame.hits.buffer, frame.slots.buffer]);
+        self.postMessage({ id, result: frame }, [frame.dots.buffer, frame.hits.buffer, frame.slots.buffer, frame.trail.buffer]);
         break;
       }
       case "decisions":

@@ -1,0 +1,212 @@
+// The page as a reader uses it: in Chromium, from a local file, by clicking, dragging and typing.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { launch, page as file, program } from "./browser.mjs";
+
+const browser = await launch();
+const folder = mkdtempSync(join(tmpdir(), "carom-page-"));
+const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, acceptDownloads: true });
+const requests = [];
+const errors = [];
+context.on("request", (request) => requests.push(request.url()));
+const page = await context.newPage();
+page.on("pageerror", (error) => errors.push(error.stack ?? error.message));
+
+const text = (id) => page.locator(`#${id}`).innerText();
+const motion = () => page.evaluate(() => {
+  const { motion, timing } = window.carom;
+  return { from: motion.from, particles: motion.particles, hits: motion.hits, flying: motion.flying, frames: timing.frames };
+});
+const hits = (count) => page.waitForFunction((n) => window.carom.motion.hits >= n, count, { timeout: 10000 });
+const panel = (analysis) => page.locator(`[data-analysis="${analysis}"]`);
+const content = () => page.locator(".cm-content");
+const tomlOf = async () => (await download("toml")).text;
+
+async function step(name, run) {
+  const begin = performance.now();
+  const said = await run();
+  console.log(`${name}: ${Math.round(performance.now() - begin)} ms${said ? `; ${said}` : ""}`);
+}
+
+async function download(kind) {
+  const [saved] = await Promise.all([page.waitForEvent("download"), page.locator(`[data-save="${kind}"]`).click()]);
+  const path = join(folder, saved.suggestedFilename());
+  await saved.saveAs(path);
+  return { path, name: saved.suggestedFilename(), text: readFileSync(path, "utf8") };
+}
+
+async function pick(name) {
+  await page.locator("#pick").click();
+  await page.locator(`[data-name="${name}"]`).click();
+  await page.waitForFunction((n) => location.hash.includes(`system=${n}`), name, { timeout: 10000 });
+}
+
+/** Replaces a line of the editor by typing. */
+async function typeLine(line, replacement) {
+  await content().click();
+  await page.keyboard.press("Control+Home");
+  for (let i = 1; i < line; ++i) await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("Home");
+  await page.keyboard.press("Shift+End");
+  await page.keyboard.type(replacement);
+}
+
+try {
+  await step("size", () => {
+    const size = statSync(file).size;
+    assert.ok(size <= 4e6, `the page has ${size} bytes`);
+    return `${(size / 1e6).toFixed(2)} MB`;
+  });
+
+  await step("opening", async () => {
+    await page.goto(`file://${file}`);
+    await hits(1);
+    const first = await page.evaluate(() => window.carom.timing.first);
+    assert.ok(first <= (Number(process.env.CAROM_SLOW) || 1) * 1000, `the first orbit is drawn after ${first} ms`);
+    return `first orbit after ${Math.round(first)} ms`;
+  });
+
+  await step("pick", async () => {
+    await page.waitForFunction(() => document.getElementById("version").textContent);
+    await pick("magnetic-square");
+    assert.match(await text("title"), /magnetic square/i);
+    await hits(5);
+  });
+
+  await step("drag on the table", async () => {
+    await pick("stadium");
+    const box = await page.locator("#table").boundingBox();
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + 60, y - 45, { steps: 4 });
+    await page.mouse.up();
+    await page.waitForFunction(() => "position" in window.carom.motion.from);
+    const { from } = await motion();
+    assert.ok(Math.hypot(...from.position) < 0.05, `the start ${from.position} is the middle`);
+    assert.ok(Math.abs(from.velocity[1] / from.velocity[0] - 0.75) < 0.02, `the direction ${from.velocity} is that of the drag`);
+  });
+
+  await step("click in the section", async () => {
+    const box = await page.locator("#section").boundingBox();
+    const before = (await motion()).hits;
+    await page.mouse.click(box.x + box.width * 0.6, box.y + box.height * 0.3);
+    await page.waitForFunction(() => "s" in window.carom.motion.from);
+    const { from } = await motion();
+    assert.ok(from.s > 0 && from.v > 0 && from.v < 1, JSON.stringify(from));
+    await hits(before + 5);
+  });
+
+  await step("wheel", async () => {
+    const box = await page.locator("#table").boundingBox();
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.wheel(0, -400);
+    await page.mouse.dblclick(box.x + box.width / 2, box.y + box.height / 2);
+  });
+
+  await step("slider", async () => {
+    const radius = page.locator('#sliders input[type="range"][aria-label*="radius"]');
+    await radius.focus();
+    await page.keyboard.press("ArrowRight");
+    await page.waitForFunction(() => location.hash.includes("toml="), null, { timeout: 10000 });
+    assert.notEqual(/radius = (.*)/.exec(await tomlOf())[1], "1");
+  });
+
+  let lines;
+  await step("edit", async () => {
+    lines = (await tomlOf()).split("\n");
+    await typeLine(lines.findIndex((line) => line.startsWith("half_length")) + 1, "half_length = 1.5");
+    await page.waitForFunction(() => [...document.querySelectorAll("#sliders input[type=text]")].some((i) => i.value === "1.5"));
+  });
+
+  await step("break", async () => {
+    const line = lines.findIndex((l) => l.startsWith("radius")) + 1;
+    await typeLine(line, "radius = -1");
+    await page.waitForFunction(() => document.getElementById("error").textContent !== "");
+    assert.match(await text("error"), /radius/);
+    await page.waitForSelector(".cm-lintRange-error");
+    const marked = await page.evaluate(() => document.querySelector(".cm-lintRange-error").textContent);
+    assert.match(marked, /radius|-1/, "the mark is on the line of the error");
+    const before = (await motion()).frames;
+    await page.waitForFunction((n) => window.carom.timing.frames > n, before); // what flew goes on
+    return await text("error");
+  });
+
+  await step("mend", async () => {
+    await typeLine(lines.findIndex((l) => l.startsWith("radius")) + 1, "radius = 1.25");
+    await page.waitForFunction(() => document.getElementById("error").textContent === "");
+    assert.equal(await page.locator(".cm-lintRange-error").count(), 0);
+  });
+
+  await step("export and digest", async () => {
+    await page.waitForFunction(() => location.hash.includes("toml="));
+    const exported = await download("toml");
+    await page.waitForFunction(() => document.querySelector('[data-analysis="escape"] .digest')?.textContent, null, { timeout: 30000 });
+    const [digest, command] = await panel("escape").evaluate((p) => [p.querySelector(".digest").textContent, p.querySelector("code").textContent]);
+    const words = command.split(" ").slice(1).map((word) => (word === "SYSTEM.toml" ? exported.path : word));
+    const native = JSON.parse(execFileSync(program, [...words, "--json"], { encoding: "utf8", maxBuffer: 1 << 26 }));
+    assert.equal(native.digest, digest, command);
+    return `${command} gives ${digest}`;
+  });
+
+  await step("hits, drawing, picture", async () => {
+    const { text: csv } = await download("csv");
+    const rows = csv.trim().split("\n");
+    assert.equal(rows[0], "orbit,t,x,y,vx,vy,wall,s,v_parallel");
+    assert.ok(rows.length > 5);
+    assert.match((await download("svg")).text, /^<svg [\s\S]*<\/svg>\s*$/);
+    assert.ok(statSync((await download("png")).path).size > 3000);
+  });
+
+  await step("reload by the link", async () => {
+    const before = { toml: await tomlOf(), from: (await motion()).from };
+    const other = await context.newPage();
+    await other.goto(await page.evaluate(() => location.href));
+    await other.waitForFunction(() => window.carom.motion.hits > 0);
+    const after = await other.evaluate(() => ({ from: window.carom.motion.from, title: document.getElementById("title").textContent }));
+    assert.deepEqual(after.from, before.from);
+    const [saved] = await Promise.all([other.waitForEvent("download"), other.locator('[data-save="toml"]').click()]);
+    assert.equal(readFileSync(await saved.path(), "utf8"), before.toml);
+    await other.close();
+  });
+
+  await step("keys", async () => {
+    await page.locator('#table canvas[role="application"]').focus();
+    for (const key of ["ArrowRight", "ArrowUp", ",", "Enter"]) await page.keyboard.press(key);
+    await page.waitForFunction(() => "position" in window.carom.motion.from);
+    await page.keyboard.press(" ");
+    assert.equal(await text("play"), "play");
+    assert.match(await page.locator("#say").textContent(), /^Paused/);
+    await page.keyboard.press(" ");
+  });
+
+  await step("a thousand particles", async () => {
+    await pick("stadium");
+    await page.locator("#particles").fill("3");
+    await page.waitForFunction(() => window.carom.motion.particles === 1000 && window.carom.motion.flying > 500);
+    await page.waitForFunction(() => window.carom.motion.flying === 0 || document.querySelectorAll(".panel .digest").length, null);
+    await page.evaluate(() => { window.carom.timing.costs.length = window.carom.timing.intervals.length = 0; });
+    await page.waitForTimeout(3000);
+    const { costs, intervals, flying } = await page.evaluate(() => ({ ...window.carom.timing, flying: window.carom.motion.flying }));
+    const middle = (list) => [...list].sort((a, b) => a - b)[list.length >> 1];
+    const high = (list) => [...list].sort((a, b) => a - b)[Math.floor(list.length * 0.95)];
+    assert.ok(costs.length > 20, `${costs.length} frames`);
+    assert.ok(middle(costs) <= 16, `a frame takes ${middle(costs)} ms`);
+    return `${costs.length} frames; work ${middle(costs).toFixed(1)} ms (95 % below ${high(costs).toFixed(1)}), ` +
+      `from frame to frame ${middle(intervals).toFixed(1)} ms (95 % below ${high(intervals).toFixed(1)}); ${flying} fly`;
+  });
+
+  await step("no request leaves", () => {
+    const outside = requests.filter((url) => !/^(file:|blob:|data:)/.test(url));
+    assert.deepEqual(outside, []);
+    assert.ok(requests.filter((url) => url.startsWith("file:")).every((url) => url.includes(file)));
+    return `${requests.length} requests, all of the page itself`;
+  });
+  assert.deepEqual(errors, []);
+} finally {
+  await browser.close();
+  rmSync(folder, { recursive: true });
+}
