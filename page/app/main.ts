@@ -26,7 +26,7 @@ let original = ""; // its text
 let name: string | undefined; // its name while the text is unchanged
 
 const table = new Table(byId("table"), trace, {
-  start: (position, velocity) => start({ position, velocity }),
+  start: (position, [x, y]) => start({ position, velocity: motion.velocity(x, y) }),
   pull: (handle, x, y) => {
     const span = Math.abs(handle.value) || 1;
     editor.setValue(handle.key.line, handle.key.key, rounded(pulled(handle, x, y), span));
@@ -43,7 +43,8 @@ function say(text: string): void {
 }
 
 function state(text: string): void {
-  byId("state").textContent = text;
+  byId("state-text").textContent = text;
+  byId("run").hidden = !motion.command("");
 }
 
 function helping(): Client {
@@ -91,7 +92,7 @@ async function load(fresh: boolean, from?: Start): Promise<boolean> {
     again = false;
     return load(fresh);
   }
-  if (good) settle(text, fresh ? 50 : 500);
+  if (good) settle(text, fresh ? 250 : 500);
   return good;
 }
 
@@ -189,7 +190,7 @@ function controls(): void {
     motion.playing = on;
     play.textContent = on ? "pause" : "play";
     play.setAttribute("aria-pressed", String(on));
-    if (!on) say(`Paused. ${byId("state").textContent}`);
+    if (!on) say(`Paused. ${byId("state-text").textContent}`);
   };
   play.addEventListener("click", () => playing(!motion.playing));
   const speed = byId<HTMLInputElement>("speed");
@@ -209,6 +210,10 @@ function controls(): void {
   });
   byId("again").addEventListener("click", () => void start(motion.nextOfFile(), motion.particles > 1));
   byId("clear").addEventListener("click", () => motion.clear());
+  byId("run").addEventListener("click", () => {
+    const command = motion.command(name ?? "SYSTEM.toml");
+    if (command) void copy(command, byId<HTMLButtonElement>("run"));
+  });
   byId("pick").addEventListener("click", () => picker?.open());
   byId("link").addEventListener("click", async () => {
     history.replaceState(null, "", await shared());

@@ -39,6 +39,8 @@ export class Motion {
   private generation = 0;
   private decisions = "";
   private waiting = false;
+  private begun = 0; // particles, since all were forgotten
+  private speed = 1;
   private note = "";
 
   constructor(
@@ -79,11 +81,13 @@ export class Motion {
       return false;
     }
     this.from = from;
+    this.begun += begun.slots.length;
     this.flying = (keep ? this.flying : 0) + begun.slots.length;
     begun.slots.forEach((slot, i) => this.trace.starts.set(slot, begun.states.slice(4 * i, 4 * i + 4)));
     this.table.started(begun.slots, begun.states, this.flying);
     const box = system.box;
     const speed = Math.hypot(begun.states[2], begun.states[3]) || 1;
+    if ("seed" in from) this.speed = speed;
     this.pace = begun.pace || (0.5 * Math.hypot(box[2] - box[0], box[3] - box[1])) / speed;
     if (system.potential) await this.client.ask({ do: "grain", grain: this.pace / 24 });
     this.hooks.say(n === 1 ? "One particle started." : `${n} particles started.`);
@@ -99,6 +103,22 @@ export class Motion {
     if (this.system) void this.start(this.system, this.from, true);
   }
 
+  /** The command that flies the same orbit as far; none for several, and for starts in the section. */
+  command(name: string): string | undefined {
+    const { from } = this;
+    if (this.particles > 1 || this.begun !== 1 || this.hits === 0 || "s" in from) return undefined;
+    const start = "seed" in from
+      ? `${from.seed === 1 ? "" : ` --seed ${from.seed}`}${from.trajectory ? ` --trajectory ${from.trajectory}` : ""}`
+      : ` --position=${from.position} --velocity=${from.velocity}`;
+    return `carom run ${name}${start} --collisions ${this.hits}`;
+  }
+
+  /** A velocity of this direction, as fast as the particles of the file. */
+  velocity(x: number, y: number): [number, number] {
+    const factor = this.speed / Math.hypot(x, y);
+    return [factor * x, factor * y];
+  }
+
   /** The next start of the file's own ensemble. */
   nextOfFile(): Start {
     return "seed" in this.from ? { seed: this.from.seed, trajectory: this.from.trajectory + this.particles } : { seed: 1, trajectory: 0 };
@@ -108,6 +128,7 @@ export class Motion {
     this.trace.clear();
     this.t = 0;
     this.hits = 0;
+    this.begun = 0;
     this.flying = 0;
     this.ready = [];
     this.decisions = "";
