@@ -12,6 +12,7 @@
 #include "carom_version.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
+#include "cli/reports/grounds.hpp"
 
 namespace carom::cli {
 
@@ -363,6 +364,7 @@ std::string sweep_text(const SweepResult& result) {
   if (const std::string why = reasons(result); !why.empty()) text += "\n" + why;
   text += fmt::format("\ncomputed in {:.3g} s\n", sum_of(result, "seconds"));
   if (!result.archive.empty()) text += fmt::format("archive: {}\n", result.archive);
+  text += grounds_text("each value as by itself", "what lies between them");
   return text;
 }
 
