@@ -150,11 +150,15 @@ TEST(Overrides, AnAngleThatIsSetGoesWithThePosition) {
 
 // One of the two would be lost without a word.
 TEST(Overrides, AStartIsGivenOnce) {
-  for (const auto& [key, value] : {std::pair{"initial.kind", "uniform"},
-                                   {"initial", "{kind = \"uniform\"}"},
-                                   {"initial.position", "[0.1, 0.1]"},
-                                   {"initial.velocity", "[0, 1]"}}) {
-    SystemOverrides o = set(key, value);
+  struct Given {
+    const char *path, *value, *key;
+  };
+  for (const auto& [path, value, key] :
+       {Given{"initial.kind", "uniform", "initial.kind"},
+        Given{"initial", "{kind = \"uniform\"}", "initial.kind"},
+        Given{"initial.position", "[0.1, 0.1]", "initial.position"},
+        Given{"initial.velocity", "[0, 1]", "initial.velocity"}}) {
+    SystemOverrides o = set(path, value);
     o.position = "0.3,0.4";
     o.velocity = "1,0";
     expect_blamed(o, key);
