@@ -48,11 +48,17 @@ Json version_of(const Request&) {
 
 Json answer(const char* text) {
   static constexpr std::pair<const char*, Json (*)(const Request&)> calls[] = {
-      {"systems", systems},    {"toml", toml},
-      {"load", load},          {"unload", unload},
-      {"orbit", begin_orbit},  {"forget", forget_orbit},
-      {"ended", end_of_orbit}, {"decisions", decisions_of_orbit},
-      {"ensemble", ensemble},  {"version", version_of}};
+      {"systems", systems},
+      {"toml", toml},
+      {"load", load},
+      {"unload", unload},
+      {"orbit", begin_orbit},
+      {"forget", forget_orbit},
+      {"ended", end_of_orbit},
+      {"decisions", decisions_of_orbit},
+      {"trust", trust_of_orbit},
+      {"ensemble", ensemble},
+      {"version", version_of}};
   std::istringstream in(text);
   Request request;
   boost::property_tree::read_json(in, request);

@@ -21,6 +21,7 @@ Json begin_orbit(const Request&);
 Json forget_orbit(const Request&);
 Json end_of_orbit(const Request&);
 Json decisions_of_orbit(const Request&);
+Json trust_of_orbit(const Request&);
 Json ensemble(const Request&);
 
 }  // namespace carom::page

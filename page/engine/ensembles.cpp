@@ -1,6 +1,10 @@
 // Ensembles: what the program's commands compute and print with --json.
 #include <fmt/format.h>
 
+#include "analyses/diffusion/describe.hpp"
+#include "analyses/escape/describe.hpp"
+#include "analyses/lyapunov/describe.hpp"
+#include "analyses/returns/describe.hpp"
 #include "analyses/section/report.hpp"
 #include "carom/analyses/kinds.hpp"
 #include "carom/analyses/section.hpp"
@@ -9,6 +13,7 @@
 #include "cli/commands/ensemble_job.hpp"
 #include "cli/commands/own_step.hpp"
 #include "cli/reports/ensemble_reports.hpp"
+#include "parts.hpp"
 #include "systems.hpp"
 
 namespace carom::page {
@@ -91,16 +96,75 @@ void refuse_nothing(const System& system, const LyapunovResult& result) {
 }
 
 template <class Result>
-Json of_kind(const Options& options) {
+Json printed(const System& system, const Result& result) {
+  refuse_nothing(system, result);
+  return cli::result_json(system, result, {.status = "completed", .output = "", .shard = {}});
+}
+
+template <class Result>
+Json whole(const Options& options) {
   LoadedSystem loaded = cli::load_ensemble(options);
   cli::OwnStep own_step(options);
   EnsembleOptions<Result> how;
   how.lanes.reset();
   const auto result = flown_well<Result>(options, loaded, own_step,
                                          [&](const System& system) { return flown(system, how); });
-  refuse_nothing(loaded.system, result);
-  return own_step.with_halvings(
-      cli::result_json(loaded.system, result, {.status = "completed", .output = "", .shard = {}}));
+  return own_step.with_halvings(printed(loaded.system, result));
+}
+
+/// Trajectories first … last - 1, for `sum`. As with --shard, a step is never halved.
+template <class Result>
+Json part(const Options& options, TrajectoryRange range) {
+  const LoadedSystem loaded = cli::load_ensemble(options);
+  EnsembleOptions<Result> how;
+  how.lanes.reset();
+  how.part = range;
+  const Result result = flown(loaded.system, how);
+  Part part;
+  put_common(part, result);
+  PartOut out(part);
+  analyses::describe(out, result, loaded.system);
+  return Json::object().set("part", part.text());
+}
+
+template <class Result>
+void complete_sum(const System&, Result&) {}
+void complete_sum(const System& system, LyapunovResult& result) {
+  SplittingOptions how;
+  how.lanes.reset();
+  add_repeller(system, result, how);
+}
+
+template <class Result>
+Json sum(const Options& options, const Request& parts) {
+  const LoadedSystem loaded = cli::load_ensemble(options);
+  Result sum;
+  bool first = true;
+  for (const auto& [key, text] : parts) {
+    const Part part(text.data());
+    Result one;
+    PartIn in(part);
+    analyses::describe(in, one, System());
+    get_common(part, one);
+    if (first)
+      sum = std::move(one);
+    else if (!sum.add(one))
+      throw InputError("two parts have trajectories in common");
+    first = false;
+  }
+  sum.complete = sum.done.size() == loaded.system.run.trajectories;
+  if (!sum.complete) throw InputError("the parts are not the whole ensemble");
+  complete_sum(loaded.system, sum);
+  return printed(loaded.system, sum);
+}
+
+template <class Result>
+Json of_kind(const Options& options, const Request& request) {
+  if (const auto parts = request.get_child_optional("parts")) return sum<Result>(options, *parts);
+  const auto range = request.get_child_optional("part");
+  if (!range) return whole<Result>(options);
+  return part<Result>(options, {range->front().second.get_value<std::uint64_t>(),
+                                range->back().second.get_value<std::uint64_t>()});
 }
 
 Json sections(const Options& options) {
@@ -121,7 +185,7 @@ Json ensemble(const Request& request) {
   if (options.command == "section")
     json = sections(options);
   else if (!for_kind(options.command, [&]<class Result>(std::type_identity<Result>) {
-             json = of_kind<Result>(options);
+             json = of_kind<Result>(options, request);
            }))
     throw InputError("the page does not compute '" + options.command +
                      "'; the program may: carom --help lists what it does");

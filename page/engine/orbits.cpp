@@ -6,8 +6,10 @@
 #include <map>
 #include <optional>
 
+#include "carom/analyses/run.hpp"
 #include "carom/analyses/run/rows.hpp"
 #include "carom/base/error.hpp"
+#include "carom/events/medium.hpp"
 #include "systems.hpp"
 
 namespace carom::page {
@@ -24,6 +26,11 @@ class Flight final : public Observer {
     add(start);
     rows_.resize(states_.size());
     ends_.resize(states_.size());
+    if (start.get("trust", false) && estimates_trust(system())) {
+      trust_.emplace(table(), system().run.trust_tolerance);
+      for (std::size_t p = 0; p < states_.size(); ++p)
+        trust_->follow(system().particles[p], states_[p], 0);
+    }
     world_.stop_when([this] { return rows_[asked_].size() >= wanted_; });
   }
   Flight(const Flight&) = delete;
@@ -37,7 +44,12 @@ class Flight final : public Observer {
   double now(std::size_t particle) const {
     return world_.state(static_cast<int>(particle)).time.value();
   }
-  const Table& table() const { return *open_->system().table; }
+  /// Nothing where it was not asked for, or cannot be estimated.
+  const Trust* trust(std::size_t particle) const {
+    return trust_ ? &trust_->trust(static_cast<int>(particle)) : nullptr;
+  }
+  const System& system() const { return open_->system(); }
+  const Table& table() const { return *system().table; }
 
   /// Writes at most `n` further hits of a particle; fewer where it ends, or where it has taken long
   /// without one.
@@ -76,12 +88,11 @@ class Flight final : public Observer {
   };
 
   void add(const Request& start) {
-    const System& system = open_->system();
-    const std::size_t all = act_on_each_other(system) ? system.particles.size() : 1;
+    const std::size_t all = act_on_each_other(system()) ? system().particles.size() : 1;
     const auto seed = start.get_optional<std::uint64_t>("seed");
     trajectory_ = start.get<std::uint64_t>("trajectory", 0);
     Starts& written = open_->as_written;
-    written.system.run.seed = seed.value_or(system.run.seed);
+    written.system.run.seed = seed.value_or(system().run.seed);
     if (seed && all > 1) {
       states_ = written.sampler.draw_all(world_, trajectory_);
     } else {
@@ -113,7 +124,7 @@ class Flight final : public Observer {
     }
     InitialCondition& initial = open_->on_wall.system.initial;
     initial.s = {start.get("s", 0.0)};
-    initial.v_parallel = {start.get("v", 0.0) * open_->system().particles.front().speed};
+    initial.v_parallel = {start.get("v", 0.0) * system().particles.front().speed};
     return open_->on_wall.sampler.draw(world_, 0, 0);
   }
 
@@ -124,17 +135,31 @@ class Flight final : public Observer {
   }
   void fly(World& world, double t) { world.run_until(t, *this, patience()); }
 
+  // Of the flight that led to a hit, positive to the left; where forces act it has none.
+  double curvature_before(const HitEvent& event) const {
+    if (system().dynamics.forces && !system().dynamics.forces->empty()) return 0.0;
+    const Particle& outside = world_.particle(event.particle);
+    int region = -1;
+    if (!table().regions.empty()) {
+      // The wall as it is seen from where the particle flies on. Did it come from behind?
+      const geometry::CurveFrame& frame = open_->frames[static_cast<std::size_t>(event.wall)];
+      const bool behind = dot(event.before, geometry::normal_at(frame, event.u)) > 0.0;
+      region = region_of(table(), behind ? table().wall(event.wall).twin : event.wall);
+    }
+    const Particle there = in_region(table(), outside, region);
+    return there.omega != 0.0 ? -there.omega / there.speed : 0.0;
+  }
+
   void hit(const HitEvent& event) override {
+    if (trust_) trust_->hit(event);
     const auto particle = static_cast<std::size_t>(event.particle);
     const HitRow hit = hit_row(event, table(), open_->frames);
-    const Particle& about = world_.particle(event.particle);
-    const bool free = !open_->system().dynamics.forces || open_->system().dynamics.forces->empty();
-    const double curvature = free && about.omega != 0.0 ? -about.omega / about.speed : 0.0;
     const double s = open_->offsets[static_cast<std::size_t>(hit.wall)] + hit.s;
     rows_[particle].push_back({hit.t, hit.x, hit.y, hit.vx, hit.vy, static_cast<double>(hit.wall),
-                               s, hit.v_parallel, curvature});
+                               s, hit.v_parallel, curvature_before(event)});
   }
   void end(const EndEvent& event) override {
+    if (trust_) trust_->end(event);
     ends_[static_cast<std::size_t>(event.particle)] = event;
   }
 
@@ -146,6 +171,7 @@ class Flight final : public Observer {
   std::vector<std::optional<EndEvent>> ends_;
   std::size_t asked_ = 0, wanted_ = 1;
   std::optional<Places> places_;
+  std::optional<TrustRecorder> trust_;
 };
 
 struct Orbit {
@@ -197,6 +223,17 @@ Json end_of_orbit(const Request& request) {
 Json decisions_of_orbit(const Request& request) {
   const DecisionCounts counts = orbit_of(request).flight->decisions();
   return Json::object().set("filter", counts.filter).set("exact", counts.exact);
+}
+
+Json trust_of_orbit(const Request& request) {
+  const Orbit& orbit = orbit_of(request);
+  const Trust* const trust = orbit.flight->trust(orbit.particle);
+  if (!trust || !trust->known) return Json::object().set("known", false);
+  return Json::object()
+      .set("known", true)
+      .set("open", trust->open)
+      .set("hits", trust->hits)
+      .set("t", trust->time.value());
 }
 
 }  // namespace carom::page

@@ -53,6 +53,18 @@ await each([...loaded.values()].flatMap((system) => analyses.map((analysis) => [
   compare(analysis, system, analysis === "section" ? { orbits: 3, points: 40, t_max: size(system).t_max } : size(system)),
 );
 
+// Parts that several workers fly add up to the whole.
+for (const [analysis, name] of [["escape", "three-disc"], ["diffusion", "lorentz-triangular"], ["lyapunov", "mushroom"], ["returns", "stadium"]]) {
+  const on = analysis === "returns" ? { on: "wall:bottom", closed: true } : {};
+  const ask = { do: "ensemble", analysis, system: loaded.get(name).system, options: { trajectories: 90, t_max: 40, ...on } };
+  const whole = call(ask);
+  const parts = [[50, 90], [0, 20], [20, 50]].map((part) => call({ ...ask, part }).part);
+  const sum = call({ ...ask, parts });
+  for (const key of ["seconds", "cpu_seconds"]) delete whole[key], delete sum[key];
+  expect(whole.digest && JSON.stringify(sum) === JSON.stringify(whole), `parts of ${analysis}: ${difference(sum, whole)}`);
+  expect(call({ ...ask, parts: parts.slice(1) }).error && call({ ...ask, parts: [...parts, parts[0]] }).error, `${analysis}: a part is missing, or twice there`);
+}
+
 // A system that was edited is a file for the program.
 const text = call({ do: "toml", name: "stadium" }).toml.replace("half_length = 2", "half_length = 2.25");
 const edited = call({ do: "load", toml: text });
@@ -121,6 +133,41 @@ for (const name of ["stadium", "magnetic-square", "lorentz-triangular", "henon-h
   for (const t of times) expect(places([one], t).every((x, i) => x === places([two], t)[i]), `${name} at ${t}`);
   call({ do: "forget", orbit: one });
   expect(call({ do: "decisions", orbit: one }).error, `${name}: an orbit that was forgotten`);
+}
+
+// The arc of each flight leads from hit to hit.
+for (const name of ["magnetic-square", "ellipse-magnetic", "stadium"]) {
+  const { orbit } = call({ do: "orbit", system: loaded.get(name).system, start: { seed: 1, trajectory: 2 } });
+  const rows = step(orbit, 30);
+  for (let i = 1; i < rows.length; ++i) {
+    const [a, b] = [rows[i - 1], rows[i]], curvature = b[8], path = Math.hypot(a[3], a[4]) * (b[0] - a[0]);
+    const chord = curvature ? Math.abs((2 / curvature) * Math.sin((curvature * path) / 2)) : path;
+    const cross = (a[3] * (b[2] - a[2]) - a[4] * (b[1] - a[1])) * curvature;
+    expect(Math.abs(chord - Math.hypot(b[1] - a[1], b[2] - a[2])) < 1e-9, `${name}: the chord of flight ${i}`);
+    expect(Math.abs(curvature * path) > 6.28 || cross >= 0, `${name}: the side of flight ${i}`);
+  }
+}
+
+// Aimed at corners and along tangents, where integers decide.
+for (const [name, position, velocity] of [["sinai", [0, 0], [1, 1]], ["stadium", [0.25, 0.5], [1, 0]], ["mushroom", [0, 0], [1, 1]], ["mushroom", [0.25, 0], [1, 0]]]) {
+  const { system } = call({ do: "load", toml: call({ do: "toml", name }).toml.replace(/\[\[table\.hole\]\][^[]*/g, "") });
+  const { orbit } = call({ do: "orbit", system, start: { position, velocity } });
+  const rows = step(orbit, 40), { exact } = call({ do: "decisions", orbit }), { why } = call({ do: "ended", orbit });
+  const { out } = await carom(["run", name, "--closed", "--position", position.join(), "--velocity", velocity.join(), "--set", "particles.speed=1", "--collisions", "40", "--json", "--quiet"]);
+  const run = JSON.parse(out), [t, x, y] = rows.at(-1) ?? [run.t, run.x, run.y];
+  expect(exact > 0 && rows.length === run.collisions && t === run.t && x === run.x && y === run.y, `${name}, aimed: ${rows.length} hits, ${exact} exact, ${t} is not ${run.t}`);
+  expect(why === (run.status === "completed" ? "" : run.status), `${name}, aimed: ${why}`);
+}
+
+// How far doubles can be trusted is what the program says.
+{
+  const toml = call({ do: "toml", name: "stadium" }).toml.replace(/\[\[table\.hole\]\][^[]*/g, "");
+  const { system } = call({ do: "load", toml });
+  const { orbit } = call({ do: "orbit", system, start: { seed: 1, trajectory: 3, trust: true } });
+  step(orbit, 200);
+  const { out } = await carom(["run", "stadium", "--closed", "--trajectory", "3", "--collisions", "200", "--json", "--quiet"]);
+  const trust = call({ do: "trust", orbit }), run = JSON.parse(out);
+  expect(trust.hits === run.trusted_collisions && trust.t === run.trusted_time && !trust.open, `trusted: ${JSON.stringify(trust)}`);
 }
 
 // A start on the boundary is where it was asked for.
