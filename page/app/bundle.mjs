@@ -22,7 +22,7 @@ async function bundle(entry) {
     target: ["chrome110", "firefox113", "safari16.4"],
     alias: { "carom-engine": resolve(factory) },
     external: ["module", "fs", "path", "url", "worker_threads", "perf_hooks", "ws", "crypto"], // of emscripten's Node branches, never taken
-    define: { "import.meta.url": '""' },
+    define: { "import.meta.url": '"file:///"' }, // never fetched: the bytes are given
     legalComments: "inline",
     logLevel: "warning",
   });

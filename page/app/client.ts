@@ -14,7 +14,9 @@ function text(id: string): string {
 
 /** The engine's bytes, which lie compressed in the page. */
 async function engineBytes(): Promise<ArrayBuffer> {
-  const packed = Uint8Array.from(atob(text("carom-wasm")), (c) => c.charCodeAt(0));
+  const characters = atob(text("carom-wasm"));
+  const packed = new Uint8Array(characters.length);
+  for (let i = 0; i < packed.length; ++i) packed[i] = characters.charCodeAt(i); // much faster than a callback
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
   return new Response(stream).arrayBuffer();
 }

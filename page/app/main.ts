@@ -104,6 +104,7 @@ function shown(loaded: System, fresh: boolean): void {
   sliders.show(loaded.keys.filter((key) => key.section !== "run"), fresh);
   document.querySelector("main")!.classList.toggle("no-walls", loaded.walls.length === 0);
   trace.clear();
+  numbers.stop();
   table.show(loaded);
   section.show(loaded);
 }

@@ -10,6 +10,7 @@ const BUDGET = 9; // milliseconds of a frame that the engine may take
 const FAN = 0.01; // radians between the first and the last particle of a drag
 const COLOURS = 8;
 const MOST = 10000;
+const REST = 700; // milliseconds after all have ended
 
 interface Hooks {
   /** For a screen reader, now and then. */
@@ -24,7 +25,7 @@ export class Motion {
   particles = 1;
   from: Start = { seed: 1, trajectory: 0 };
   /** For tests: frames drawn, when the first one was, and what each took. */
-  readonly timing = { frames: 0, first: 0, costs: [] as number[], intervals: [] as number[] };
+  readonly timing = { frames: 0, first: 0, costs: [] as number[], intervals: [] as number[], engine: [] as number[] };
   private system?: System;
   private t = 0;
   private pace = 1;
@@ -38,7 +39,7 @@ export class Motion {
   private lastFrame = 0;
   private generation = 0;
   private decisions = "";
-  private waiting = false;
+  private goOnAt = 0; // when the file's next trajectories follow; 0: not
   private begun = 0; // particles, since all were forgotten
   private speed = 1;
   private note = "";
@@ -67,6 +68,7 @@ export class Motion {
   async start(system: System, from: Start, fresh: boolean, reached = 0): Promise<boolean> {
     const n = this.particles;
     const keep = !fresh && this.system === system && n <= 64 && this.flying + n <= MOST;
+    this.goOnAt = 0;
     if (!keep) this.forget();
     const generation = keep ? this.generation : ++this.generation;
     const begun = await this.client.begin({
@@ -99,7 +101,6 @@ export class Motion {
   }
 
   clear(): void {
-    this.forget();
     if (this.system) void this.start(this.system, this.from, true);
   }
 
@@ -157,13 +158,16 @@ export class Motion {
       this.lastAsk = now;
       this.ask(this.t + elapsed * this.hitsPerSecond * this.pace);
     }
+    if (this.goOnAt && begin > this.goOnAt && this.playing && this.system) {
+      this.goOnAt = 0;
+      void this.start(this.system, this.nextOfFile(), this.particles > 64);
+    }
     if (frames.length && this.lastFrame) {
-      this.timing.costs.push(performance.now() - begin);
-      this.timing.intervals.push(now - this.lastFrame);
-      if (this.timing.costs.length > 600) {
-        this.timing.costs.shift();
-        this.timing.intervals.shift();
-      }
+      const { costs, intervals, engine } = this.timing;
+      costs.push(performance.now() - begin);
+      intervals.push(now - this.lastFrame);
+      engine.push(frames[0].cost);
+      for (const list of [costs, intervals, engine]) if (list.length > 600) list.shift();
     }
     this.lastFrame = now;
   }
@@ -193,19 +197,8 @@ export class Motion {
       this.note = `${why} at t = ${plain(t)}`;
       this.hooks.say(`The particle ended: ${this.note}, after ${this.hits} hits.`);
     }
-    if (this.flying === 0) this.goOn();
+    if (this.flying === 0 && "seed" in this.from) this.goOnAt = performance.now() + REST;
     this.report();
-  }
-
-  /** All have ended: the file's next trajectories follow. */
-  private goOn(): void {
-    if (this.waiting || !("seed" in this.from) || !this.system) return;
-    const { system, generation } = this;
-    this.waiting = true;
-    setTimeout(() => {
-      this.waiting = false;
-      if (generation === this.generation && this.playing) void this.start(system, this.nextOfFile(), this.particles > 64);
-    }, 700);
   }
 
   private report(): void {

@@ -224,12 +224,13 @@ export class Numbers {
 
   /** Begins anew for a system; `name` is its built-in name where the text is unchanged. */
   async show(text: string, name: string | undefined, system: System): Promise<void> {
-    const run = ++this.run;
+    this.stop();
+    const run = this.run;
     const holes = system.walls.some((wall) => wall.hole);
     const kinds = [holes && escape, system.lattice && diffusion, lyapunov].filter((k): k is Kind => !!k);
     this.panels = kinds.map((kind) => new Panel({ ...kind, options: kind === lyapunov && holes ? { closed: true } : {} }));
+    this.place.classList.remove("stale");
     this.place.replaceChildren(...this.panels.map((panel) => panel.element));
-    this.client?.stop();
     const client = (this.client = new Client());
     try {
       const { system: id } = await client.call({ do: "load", toml: text, ...(name ? { name } : {}) });
@@ -243,6 +244,14 @@ export class Numbers {
     } catch (error) {
       if (run === this.run) throw error;
     }
+  }
+
+  /** The system has changed: what stands here is of the one before. */
+  stop(): void {
+    ++this.run;
+    this.client?.stop();
+    this.client = undefined;
+    this.place.classList.add("stale");
   }
 
   recolour(): void {
