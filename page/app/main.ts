@@ -13,7 +13,7 @@ import { fragment, read, type Shared } from "./share";
 import { rounded, Sliders } from "./sliders";
 import { Table } from "./table";
 import { Trace } from "./trace";
-import { byId, copy, count, plain, save } from "./words";
+import { byId, copy, count, save } from "./words";
 
 const FIRST = "stadium";
 
@@ -33,7 +33,7 @@ const table = new Table(byId("table"), trace, {
   },
 });
 const section = new Section(byId("section"), trace, (s, v) => start({ s, v }));
-const motion = new Motion(client, trace, table, section, { say, state });
+const motion = new Motion(client, trace, table, section, { say, state, paced });
 const numbers = new Numbers(byId("numbers"));
 const editor = new Editor(byId("editor"), () => edited(120));
 const sliders = new Sliders(byId("sliders"), (key, value) => editor.setValue(key.line, key.key, value));
@@ -45,6 +45,13 @@ function say(text: string): void {
 function state(text: string): void {
   byId("state-text").textContent = text;
   byId("run").hidden = !motion.command("");
+}
+
+function paced(): void {
+  const speed = byId<HTMLInputElement>("speed");
+  motion.hitsPerSecond = 10 ** Number(speed.value);
+  byId("speed-text").textContent = motion.speedText;
+  speed.setAttribute("aria-valuetext", motion.speedText);
 }
 
 function helping(): Client {
@@ -195,14 +202,7 @@ function controls(): void {
   };
   play.addEventListener("click", () => playing(!motion.playing));
   const speed = byId<HTMLInputElement>("speed");
-  const paced = () => {
-    motion.hitsPerSecond = 10 ** Number(speed.value);
-    const text = `${plain(motion.hitsPerSecond, motion.hitsPerSecond < 1 ? 1 : 2)} hits a second`;
-    byId("speed-text").textContent = text;
-    speed.setAttribute("aria-valuetext", text);
-  };
   speed.addEventListener("input", paced);
-  paced();
   const particles = byId<HTMLInputElement>("particles");
   particles.addEventListener("input", () => {
     setParticles(10 ** Number(particles.value));

@@ -15,6 +15,8 @@ const REST = 700; // milliseconds after all have ended
 interface Hooks {
   /** For a screen reader, now and then. */
   say(text: string): void;
+  /** How fast the page's time goes has changed. */
+  paced(): void;
   /** The line below the drawings. */
   state(text: string): void;
 }
@@ -90,8 +92,9 @@ export class Motion {
     const box = system.box;
     const speed = Math.hypot(begun.states[2], begun.states[3]) || 1;
     if ("seed" in from) this.speed = speed;
-    this.pace = begun.pace || (0.5 * Math.hypot(box[2] - box[0], box[3] - box[1])) / speed;
-    if (system.potential) await this.client.ask({ do: "grain", grain: this.pace / 24 });
+    this.pace = begun.pace || (0.1 * Math.hypot(box[2] - box[0], box[3] - box[1])) / speed;
+    this.hooks.paced();
+    if (system.potential) await this.client.ask({ do: "grain", grain: this.pace / 16 });
     this.hooks.say(n === 1 ? "One particle started." : `${n} particles started.`);
     if (reached > 0) {
       const frame = await this.client.frame(reached, 40);
@@ -112,6 +115,13 @@ export class Motion {
       ? `${from.seed === 1 ? "" : ` --seed ${from.seed}`}${from.trajectory ? ` --trajectory ${from.trajectory}` : ""}`
       : ` --position=${from.position} --velocity=${from.velocity}`;
     return `carom run ${name}${start} --collisions ${this.hits}`;
+  }
+
+  /** The speed of the page's time, in words. */
+  get speedText(): string {
+    const { hitsPerSecond: hits, system } = this;
+    if (system && !system.walls.length) return `t grows by ${plain(hits * this.pace, 2)} a second`;
+    return `${plain(hits, hits < 1 ? 1 : 2)} hits a second`;
   }
 
   /** A velocity of this direction, as fast as the particles of the file. */
@@ -205,7 +215,7 @@ export class Motion {
     const parts = [
       this.flying === 1 ? "1 particle" : `${count(this.flying)} particles`,
       `t = ${plain(this.t)}`,
-      `${count(this.hits)} hits`,
+      this.system?.walls.length ? `${count(this.hits)} hits` : "",
       this.decisions,
       this.note,
     ];
@@ -216,8 +226,8 @@ export class Motion {
     if (!this.flying || this.busy) return;
     const { generation } = this;
     const { filter, exact } = await this.client.ask({ do: "decisions" });
-    if (generation !== this.generation || exact === undefined) return;
-    this.decisions = `${count((filter ?? 0) + exact)} decisions, ${exact ? count(exact) : "none"} of them in exact arithmetic`;
+    if (generation !== this.generation || exact === undefined || filter + exact === 0) return;
+    this.decisions = `${count(filter + exact)} decisions, ${exact ? count(exact) : "none"} of them in exact arithmetic`;
   }
 }
 

@@ -31,9 +31,10 @@ const escape: Kind = {
   options: {},
   facts({ fit, trajectories, survived }) {
     const facts: [string, string][] = [];
-    if (fit?.model === "exponential" && fit.rate !== undefined) facts.push(["escape rate", withError(fit.rate, fit.stderr)]);
-    if (fit?.model === "power" && fit.exponent !== undefined) facts.push(["tail exponent", withError(fit.exponent, fit.stderr)]);
-    if (fit?.window) facts.push(["fitted from", `t = ${plain(fit.window[0])}`]);
+    if (fit?.model) facts.push([`fit for t > ${plain(fit.window[0])}${fit.decided ? "" : ", not decided"}`, fit.model]);
+    if (fit?.rate !== undefined) facts.push([fit.local_slope ? "local rate" : "escape rate", withError(fit.rate, fit.stderr)]);
+    if (fit?.exponent !== undefined) facts.push([fit.local_slope ? "local exponent" : "exponent", withError(fit.exponent, fit.stderr)]);
+    if (fit?.plateau !== undefined) facts.push(["plateau", withError(fit.plateau, fit.plateau_stderr)]);
     facts.push(["still inside", `${count(survived)} of ${count(trajectories)}`]);
     return facts;
   },
@@ -43,7 +44,8 @@ const escape: Kind = {
     const floor = 1 / (3 * survival.length * 1e6);
     const curve = t.map((x: number) => {
       if (!fit?.amplitude || x < fit.window[0]) return null;
-      const p = fit.model === "power" ? fit.amplitude * x ** -fit.exponent : fit.amplitude * Math.exp(-fit.rate * x);
+      const decay = fit.rate === undefined ? x ** -fit.exponent : Math.exp(-fit.rate * x);
+      const p = fit.amplitude * decay + (fit.plateau ?? 0);
       return p > rows.at(-1).p / 3 ? p : null;
     });
     const colours = ink();
@@ -60,6 +62,19 @@ const escape: Kind = {
   },
 };
 
+/** A histogram: edges, and counts with a zero at the end. */
+function bars(x: number[], y: number[]): ReturnType<Kind["plot"]> {
+  const colours = ink();
+  return {
+    options: {
+      scales: { x: { time: false }, y: { range: (_u, _min, max) => [0, 1.1 * max] } },
+      series: [{ label: "exponent of an orbit" }, { label: "orbits", stroke: colours.accent, width: 1.2, fill: colours.rule,
+        paths: uPlot.paths.stepped!({ align: 1 }), points: { show: false } }],
+    },
+    data: [x, y],
+  };
+}
+
 const lyapunov: Kind = {
   analysis: "lyapunov",
   heading: "Lyapunov exponent",
@@ -74,7 +89,6 @@ const lyapunov: Kind = {
     return facts;
   },
   plot({ distribution = [] }) {
-    const colours = ink();
     const filled = distribution.filter((bin: Result) => bin.count > 0);
     if (!filled.length) return { options: { series: [{}, {}] }, data: [[], []] };
     const [low, high] = [filled[0].from, filled.at(-1).to];
@@ -90,14 +104,12 @@ const lyapunov: Kind = {
     }
     x.push(bins.at(-1).to);
     y.push(0);
-    return {
-      options: {
-        scales: { x: { time: false }, y: { range: (_u, _min, max) => [0, 1.1 * max] } },
-        series: [{ label: "exponent of an orbit" }, { label: "orbits", stroke: colours.accent, width: 1.2, fill: colours.rule,
-          paths: uPlot.paths.stepped!({ align: 1 }), points: { show: false } }],
-      },
-      data: [x, y],
-    };
+    if (x.length === 2) {
+      const half = Math.max(x[1] - x[0], 0.02 * Math.abs(x[0])) / 2;
+      const middle = (x[0] + x[1]) / 2;
+      return bars([middle - 3 * half, middle - half, middle + half, middle + 3 * half], [0, y[0], 0, 0]);
+    }
+    return bars(x, y);
   },
 };
 
@@ -147,12 +159,14 @@ class Panel {
     this.result.append(make("span", {}, "digest ", this.digest), this.copy, this.command);
     this.element = make("section", { class: "panel" }, make("h2", {}, kind.heading, " ", this.size), this.chart, this.facts, this.result);
     this.element.dataset.analysis = kind.analysis;
+    this.chart.append(make("p", { class: "note", textContent: `The first ensemble is being computed: ${kind.first} trajectories.` }));
     new ResizeObserver(() => this.plot?.setSize(this.room())).observe(this.chart);
   }
 
-  show(result: Result): void {
+  show(result: Result, asked: number): void {
     this.last = result;
-    this.size.textContent = `${count(result.trajectories ?? result.orbits)} trajectories`;
+    const trajectories = Math.min(result.trajectories ?? asked, asked);
+    this.size.textContent = trajectories === 1 ? "1 trajectory" : `${count(trajectories)} trajectories`;
     this.facts.replaceChildren(...this.kind.facts(result).flatMap(([name, value]) => [make("dt", { textContent: name }), make("dd", { textContent: value })]));
     this.digest.textContent = result.digest;
     this.command.textContent = result.command;
@@ -179,12 +193,17 @@ class Panel {
     const powers: Partial<uPlot.Axis> = {
       splits: (_u, _axis, min, max) => {
         const [low, high] = [Math.ceil(Math.log10(min) - 1e-9), Math.floor(Math.log10(max) + 1e-9)];
+        if (Math.log10(max / min) < 1.6) {
+          return [1, 2, 5].flatMap((m) => Array.from({ length: high - low + 2 }, (_, i) => m * 10 ** (low - 1 + i)))
+            .filter((v) => v >= min && v <= max).sort((a, b) => a - b);
+        }
         const step = Math.max(1, Math.ceil((high - low) / 5));
         return Array.from({ length: Math.max(0, Math.floor((high - low) / step) + 1) }, (_, i) => 10 ** (high - i * step)).reverse();
       },
       values: (_u, splits) => splits.map(label),
       filter: (_u, splits) => splits,
     };
+    const plainly: Partial<uPlot.Axis> = { values: (_u, splits) => splits.map((v) => plain(v)), space: 60 };
     this.plot?.destroy();
     this.plot = new uPlot({
       ...this.room(),
@@ -193,8 +212,8 @@ class Panel {
       padding: [8, 12, 0, 0],
       ...options,
       axes: [
-        { ...axis, label: options.series?.[0]?.label as string, ...(isLogarithmic ? powers : {}) },
-        { ...axis, size: 46, ...(options.scales?.y?.distr === 3 ? powers : {}) },
+        { ...axis, label: options.series?.[0]?.label as string, ...(isLogarithmic ? powers : plainly) },
+        { ...axis, size: 46, ...plainly, ...(options.scales?.y?.distr === 3 ? powers : {}) },
       ],
     } as uPlot.Options, data, this.chart);
     this.chart.querySelectorAll(".note").forEach((note) => note.remove());
@@ -228,7 +247,11 @@ export class Numbers {
     const run = this.run;
     const holes = system.walls.some((wall) => wall.hole);
     const kinds = [holes && escape, system.lattice && diffusion, lyapunov].filter((k): k is Kind => !!k);
-    this.panels = kinds.map((kind) => new Panel({ ...kind, options: kind === lyapunov && holes ? { closed: true } : {} }));
+    this.panels = kinds.map((kind) => new Panel({
+      ...kind,
+      first: system.potential ? Math.max(1, kind.first >> 4) : kind.first,
+      options: kind === lyapunov && holes ? { closed: true } : {},
+    }));
     this.place.classList.remove("stale");
     this.place.replaceChildren(...this.panels.map((panel) => panel.element));
     const client = (this.client = new Client());
@@ -264,9 +287,10 @@ export class Numbers {
       const { analysis, options } = panel.kind;
       const trajectories = Math.min(panel.next, limit);
       const result = await client.call({ do: "ensemble", analysis, system, options: { trajectories, ...options } });
-      panel.show(result);
+      panel.show(result, trajectories);
       panel.next *= 2;
-      panel.done = trajectories === limit || performance.now() - begin > 1000 * PATIENCE;
+      // Fewer than asked for: all start alike.
+      panel.done = trajectories === limit || result.trajectories < trajectories || performance.now() - begin > 1000 * PATIENCE;
     } catch (error) {
       panel.refuse((error as Error).message);
     }

@@ -14,7 +14,9 @@ function outline(system: System, trail: Float64Array, width: number, height: num
   svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
   svg.setAttribute("aria-hidden", "true");
   const [x0, y0, x1, y1] = trail.length ? around(trail) : system.box;
-  const k = Math.min((width - 6) / (x1 - x0 || 1), (height - 6) / (y1 - y0 || 1));
+  const few = system.lattice && system.walls.length > 0 && system.walls.length < 10;
+  const zoom = few ? 0.45 : 1; // neighbours, too
+  const k = zoom * Math.min((width - 6) / (x1 - x0 || 1), (height - 6) / (y1 - y0 || 1));
   const px = (x: number) => (width / 2 + (x - (x0 + x1) / 2) * k).toFixed(1);
   const py = (y: number) => (height / 2 - (y - (y0 + y1) / 2) * k).toFixed(1);
   const draw = (d: string, hole: boolean) => {
@@ -23,10 +25,18 @@ function outline(system: System, trail: Float64Array, width: number, height: num
     if (hole) path.setAttribute("class", "hole");
     svg.append(path);
   };
-  for (const wall of system.walls) {
-    let d = "";
-    for (let i = 0; i < wall.points.length; i += 2) d += `${i ? "L" : "M"}${px(wall.points[i])} ${py(wall.points[i + 1])}`;
-    draw(wall.closed ? `${d}Z` : d, wall.hole);
+  const [ax, ay, bx, by] = system.lattice ?? [0, 0, 0, 0];
+  const shifts = few ? [-2, -1, 0, 1, 2] : [0];
+  for (const i of shifts) {
+    for (const j of shifts) {
+      for (const wall of system.walls) {
+        let d = "";
+        for (let n = 0; n < wall.points.length; n += 2) {
+          d += `${n ? "L" : "M"}${px(wall.points[n] + i * ax + j * bx)} ${py(wall.points[n + 1] + i * ay + j * by)}`;
+        }
+        draw(wall.closed ? `${d}Z` : d, wall.hole);
+      }
+    }
   }
   const path = Array.from({ length: trail.length / 3 }, (_, i) => `${px(trail[3 * i + 1])} ${py(trail[3 * i + 2])}`);
   if (path.length) draw(`M${path.join("L")}`, true);
@@ -46,7 +56,7 @@ async function pathOf(client: Client, system: System): Promise<Float64Array> {
   await client.begin({ do: "begin", system: system.system, forces: true, walls: false, starts: [start], slots: [0], keep: false });
   await client.ask({ do: "grain", grain: 0.1 });
   const { trail } = await client.frame(40, 150);
-  return trail;
+  return trail.filter((_, i) => trail[i - (i % 3)] === 0); // the first particle's
 }
 
 export class Picker {

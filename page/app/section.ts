@@ -14,7 +14,7 @@ export class Section {
   private colours: Ink = ink();
   private system?: System;
   private bitmap?: ImageData;
-  private size = 3;
+  private size = 4;
   private cursor?: { s: number; v: number };
 
   constructor(place: HTMLElement, private readonly trace: Trace, private readonly start: (s: number, v: number) => void) {
@@ -120,7 +120,7 @@ export class Section {
   }
 
   private sizeFor(rows: number): number {
-    return rows < 1500 ? 3 : rows < 20000 ? 2 : 1;
+    return rows < 300 ? 4 : rows < 3000 ? 3 : rows < 20000 ? 2 : 1;
   }
 
   private draw(): void {

@@ -7,7 +7,7 @@ import type { Trace } from "./trace";
 import { listen, sized, View } from "./view";
 
 const MOST_FLIGHTS = 30000; // redrawn when the view changes
-const MOST_CELLS = 1500; // of a lattice
+const MOST_CELLS = 5000; // of a lattice
 
 export interface TableEvents {
   start(position: [number, number], velocity: [number, number]): void;
@@ -35,6 +35,8 @@ export class Table {
   private held?: Handle;
   private bitmap?: ImageData;
   private handles: Handle[] = [];
+  private seen: [number, number, number, number] = [Infinity, Infinity, -Infinity, -Infinity];
+  private grown = false;
   private near = matchMedia("(pointer: coarse)").matches;
 
   constructor(place: HTMLElement, private readonly trace: Trace, private readonly events: TableEvents) {
@@ -85,6 +87,7 @@ export class Table {
     if (!same) this.view.moved = false;
     if (!this.view.moved) this.fit();
     this.handles = [];
+    this.seen = [Infinity, Infinity, -Infinity, -Infinity];
     this.clear(1);
   }
 
@@ -147,25 +150,41 @@ export class Table {
 
   private fit(): void {
     if (!this.system) return;
-    this.view.fit(this.system.box, true, 14);
-    if (this.system.lattice) this.view.kx = this.view.ky *= 0.4; // neighbours, too
+    const seen = this.system.walls.length === 0 && this.seen[2] > this.seen[0];
+    this.view.fit(seen ? this.seen : this.system.box, true, 14);
+    if (this.system.lattice && !seen) this.view.kx = this.view.ky *= this.system.walls.length < 10 ? 0.4 : 0.8; // neighbours, too
   }
 
-  /** In a lattice, and where no walls are, the view grows with the orbit, until the reader moves it. */
+  /** In a lattice, and where no walls are, the view goes with the orbit, until the reader moves it. */
   private follow(frame: Frame): void {
-    if (!this.system || (!this.system.lattice && this.system.walls.length > 0) || this.view.moved || !frame.slots.length || this.orbits > 16) return;
-    const { view } = this;
-    let grown = false;
-    for (let i = 0; i < frame.slots.length; ++i) {
-      const px = view.px(frame.dots[2 * i]);
-      const py = view.py(frame.dots[2 * i + 1]);
-      if (px < 0 || py < 0 || px > view.width || py > view.height) grown = true;
+    const { system, view } = this;
+    if (!system || view.moved || !frame.slots.length || this.orbits > 16) return;
+    if (system.walls.length === 0) {
+      for (let at = 0; at < frame.trail.length; at += 3) this.enclose(frame.trail[at + 1], frame.trail[at + 2]);
+      if (!this.grown || !(this.seen[2] > this.seen[0])) return;
+      this.grown = false;
+      this.fit();
+      this.draw();
+    } else if (system.lattice) {
+      const inside = (x: number, y: number) => x > 0 && y > 0 && x < view.width && y < view.height;
+      const all = frame.slots.every((_, i) => inside(view.px(frame.dots[2 * i]), view.py(frame.dots[2 * i + 1])));
+      if (all || view.kx * Math.hypot(system.lattice[0], system.lattice[1]) < 20) return;
+      view.zoom(0.7, view.width / 2, view.height / 2);
+      view.moved = false;
+      this.draw();
     }
-    const cell = this.system.lattice ?? [1, 0];
-    if (!grown || view.kx * Math.hypot(cell[0], cell[1]) < 12) return;
-    view.zoom(0.7, view.width / 2, view.height / 2);
-    view.moved = false;
-    this.draw();
+  }
+
+  /** Grows the box of what was seen, by more than asked for, so that it grows seldom. */
+  private enclose(x: number, y: number): void {
+    const { seen } = this;
+    if (x >= seen[0] && y >= seen[1] && x <= seen[2] && y <= seen[3]) return;
+    this.grown = true;
+    const more = 0.1 * Math.max(seen[2] - seen[0], seen[3] - seen[1], 0);
+    if (x < seen[0]) seen[0] = x - more;
+    if (y < seen[1]) seen[1] = y - more;
+    if (x > seen[2]) seen[2] = x + more;
+    if (y > seen[3]) seen[3] = y + more;
   }
 
   private draw(): void {
@@ -185,23 +204,32 @@ export class Table {
     g.clearRect(0, 0, view.width, view.height);
     if (!system) return;
     g.lineJoin = g.lineCap = "round";
-    for (const [dx, dy, centre] of this.cells()) {
-      for (const wall of system.walls) {
-        g.beginPath();
-        for (let i = 0; i < wall.points.length; i += 2) {
-          g.lineTo(view.px(wall.points[i] + dx), view.py(wall.points[i + 1] + dy));
+    // The file's cell last, over its copies.
+    for (const centre of [false, true]) {
+      const walls = new Path2D();
+      const holes = new Path2D();
+      for (const [dx, dy, own] of this.cells()) {
+        if (own !== centre) continue;
+        for (const wall of system.walls) {
+          const path = wall.hole ? holes : walls;
+          path.moveTo(view.px(wall.points[0] + dx), view.py(wall.points[1] + dy));
+          for (let i = 2; i < wall.points.length; i += 2) {
+            path.lineTo(view.px(wall.points[i] + dx), view.py(wall.points[i + 1] + dy));
+          }
+          if (wall.closed) path.closePath();
         }
-        if (wall.closed) g.closePath();
-        g.strokeStyle = wall.hole ? colours.paper : centre ? colours.ink : colours.soft;
-        g.lineWidth = wall.hole ? 4 : centre ? 1.5 : 0.8;
-        g.stroke();
-        if (!wall.hole) continue;
-        g.strokeStyle = colours.accent;
-        g.lineWidth = 1;
-        g.setLineDash([2, 3]);
-        g.stroke();
-        g.setLineDash([]);
       }
+      g.strokeStyle = centre ? colours.ink : colours.soft;
+      g.lineWidth = centre ? 1.5 : 0.8;
+      g.stroke(walls);
+      g.strokeStyle = colours.paper;
+      g.lineWidth = 4;
+      g.stroke(holes);
+      g.strokeStyle = colours.accent;
+      g.lineWidth = 1;
+      g.setLineDash([2, 3]);
+      g.stroke(holes);
+      g.setLineDash([]);
     }
   }
 
