@@ -45,5 +45,6 @@ install(FILES cmake/completion/_carom DESTINATION ${carom_zsh_dir} COMPONENT pro
 # Documents; the gallery is a part of the guide.
 install(FILES LICENSE CITATION.cff CHANGELOG.md README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(DIRECTORY docs/guide docs/physics docs/developer DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT program)
+install(FILES build/page/carom.html DESTINATION ${CMAKE_INSTALL_DATADIR}/carom COMPONENT program OPTIONAL)  # where ./dev page was run
 install(DIRECTORY build/docs/html DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program OPTIONAL)  # where ./dev docs was run
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)

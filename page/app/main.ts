@@ -143,7 +143,8 @@ async function shared(): Promise<string> {
 
 function remember(): void {
   void shared().then((hash) => {
-    if (hash !== location.hash) history.replaceState(null, "", hash);
+    // In a frame of a notebook the page has no address of its own.
+    if (hash !== location.hash && location.protocol !== "about:") history.replaceState(null, "", hash);
   });
 }
 

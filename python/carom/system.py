@@ -5,7 +5,7 @@ import inspect
 import json
 from typing import Any, Callable, TypeVar, cast
 
-from . import _carom, plot, toml
+from . import _carom, page, plot, toml
 from .errors import InputError, nearest, path_of, printable, text_of
 
 _KEYS = _carom.keys()
@@ -301,6 +301,11 @@ class System:
 
     def _pictures(self):
         return {"table": plot.table}
+
+    def show(self, width="100%", height=820):
+        """The page that computes in a browser, with this system: in a notebook a frame (pixels), else in
+        a browser. What it shows has the bits of the module."""
+        return page.show(self, width, height)
 
     def plot(self, ax=None, **keywords):
         """Draws the table, its holes and level lines of its potentials."""

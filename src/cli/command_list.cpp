@@ -243,6 +243,15 @@ void define_commands(CLI::App& app, Options& o) {
       "It needs Python with matplotlib; .mp4 needs ffmpeg as well.")
       .system("SOURCE", "Archive of carom run, TOML file or built-in name")
       .output("FILM", "A name ending in .gif or .mp4");
+  Command(app, o, look, "page", "Open the page that computes in a browser",
+          "Examples:\n"
+          "  carom page\n"
+          "  carom page mushroom --set table.stem_width=0.3     with that system\n"
+          "\n"
+          "What the page shows is what carom computes, to the last bit. On a terminal the page is "
+          "opened; its address is printed everywhere.")
+      .system("SYSTEM", "Built-in name or TOML file to begin with")
+      .settings();
   Command(app, o, data, "merge", "Add the parts of an ensemble",
           "Examples:\n"
           "  carom escape stadium --shard 1/2 -o a.h5\n"

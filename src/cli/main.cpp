@@ -53,7 +53,8 @@ int (*command_of(const std::string& name))(const Options&) {
   static const std::pair<const char*, int (*)(const Options&)> commands[] = {
       {"escape", escape}, {"run", run},           {"section", section}, {"orbit", orbit},
       {"relax", relax},   {"compare", compare},   {"schemes", schemes}, {"merge", merge},
-      {"table", table},   {"validate", validate}, {"plot", plot},       {"animate", animate}};
+      {"table", table},   {"validate", validate}, {"plot", plot},       {"animate", animate},
+      {"page", page}};
   for (const auto& [known, command] : commands)
     if (name == known) return command;
   return carom::is_ensemble(name) ? ensemble : systems;

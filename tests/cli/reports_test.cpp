@@ -113,7 +113,7 @@ TEST(Lines, FitATerminal) {
       "--help"};
   for (const char* command :
        {"escape", "run", "diffusion", "lyapunov", "section", "relax", "compare", "schemes", "orbit",
-        "merge", "table", "plot", "animate", "systems", "validate"})
+        "merge", "table", "plot", "animate", "page", "systems", "validate"})
     commands.push_back(std::string(command) + " --help");
   for (const std::string& command : commands) {
     const Outcome o = shell("$carom " + command);

@@ -110,3 +110,18 @@ def test_regions_and_laws_of_walls():
     assert "specularity = 0.5" in rough.to_toml()
     with pytest.raises(carom.InputError, match="particles pass wall 'disc'"):
         glass.wall("diffuse", wall="disc")
+
+
+def test_the_page_is_shown_with_the_system(monkeypatch, tmp_path):
+    import base64
+    import zlib
+
+    stadium = carom.stadium(half_length=1, radius=1)
+    packed = carom.page.fragment(stadium).removeprefix("#toml=")
+    packed += "=" * (-len(packed) % 4)
+    assert zlib.decompress(base64.urlsafe_b64decode(packed), wbits=-15).decode() == stadium.to_toml()
+    page = tmp_path / "carom.html"
+    page.write_text("<html><head></head></html>")
+    monkeypatch.setattr(carom.page, "_file", lambda: page)
+    monkeypatch.setattr(carom.page.webbrowser, "open", lambda address: True)
+    assert stadium.show() == page.as_uri() + carom.page.fragment(stadium)

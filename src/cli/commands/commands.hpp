@@ -22,6 +22,7 @@ int orbit(const Options&);
 int validate(const Options&);
 int plot(const Options&);
 int animate(const Options&);
+int page(const Options&);
 
 /// The system that a command would compute, from its options.
 LoadedSystem system_of_command(const Options&);
