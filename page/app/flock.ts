@@ -1,7 +1,7 @@
 // The orbits that fly: their next hits are read ahead in chunks, and each frame takes those whose time has come.
 import { Engine, EngineError, ROW } from "./engine";
 import { along } from "./flight";
-import { FRAME_ROW, type Begun, type Frame, type Request } from "./protocol";
+import { FRAME_ROW, TRUSTED, type Begun, type Frame, type Request, type Trust } from "./protocol";
 
 const CHUNK = 16; // hits read at a time
 const MOST_HITS = 20000; // in a frame
@@ -49,7 +49,8 @@ export class Flock {
     const begun: Orbit[] = [];
     for (const start of ask.starts) {
       try {
-        const { orbit, particles = 1 } = this.engine.call({ do: "orbit", system: ask.system, start });
+        const trust = ask.starts.length <= TRUSTED;
+        const { orbit, particles = 1 } = this.engine.call({ do: "orbit", system: ask.system, start: { ...start, trust } });
         for (let p = 0; p < particles; ++p) {
           const slot = ask.slots[begun.length];
           begun.push({ slot, id: orbit + p, rows: new Float64Array(0), at: 0, born: this.t, t: 0, x: 0, y: 0, vx: 0, vy: 0 });
@@ -110,6 +111,16 @@ export class Flock {
       }
     }
     return sum;
+  }
+
+  /** Of few orbits: how far they can be trusted, where that is known. The hits read ahead count. */
+  trust(): Trust[] {
+    const found: Trust[] = [];
+    for (const { id, slot } of this.orbits.slice(0, TRUSTED)) {
+      const { known, open, hits, t } = this.engine.call({ do: "trust", orbit: id });
+      if (known) found.push({ slot, hits, t, open });
+    }
+    return found;
   }
 
   private fly(t: number, hits: number[], ended: Frame["ended"]): void {

@@ -129,7 +129,7 @@ function settle(text: string, wait: number): void {
   settling = window.setTimeout(() => {
     const now = system!;
     remember();
-    numbers.show(text, name, now).catch(failed);
+    numbers.show(text, now).catch(failed);
     void findHandles(helping(), text, now).then((handles) => {
       if (now === system) table.showHandles(handles);
     });

@@ -1,6 +1,6 @@
 // The motion: which particles fly, how fast the page's time goes, and the frames.
 import type { Client } from "./client";
-import type { Frame, Start, System } from "./protocol";
+import { TRUSTED, type Frame, type Start, type System, type Trust } from "./protocol";
 import type { Section } from "./section";
 import type { Table } from "./table";
 import type { Trace } from "./trace";
@@ -41,6 +41,7 @@ export class Motion {
   private lastFrame = 0;
   private generation = 0;
   private decisions = "";
+  private trust = "";
   private goOnAt = 0; // when the file's next trajectories follow; 0: not
   private begun = 0; // particles, since all were forgotten
   private speed = 1;
@@ -143,6 +144,7 @@ export class Motion {
     this.flying = 0;
     this.ready = [];
     this.decisions = "";
+    this.trust = "";
     this.table.clear(this.particles);
     this.section.clear();
   }
@@ -217,13 +219,29 @@ export class Motion {
       `t = ${plain(this.t)}`,
       this.system?.walls.length ? `${count(this.hits)} hits` : "",
       this.decisions,
+      this.trust,
       this.note,
     ];
     this.hooks.state(parts.filter(Boolean).join("  ·  "));
   }
 
+  /** Of few orbits: the hit after which doubles cannot be trusted is marked. */
+  private async askForTrust(): Promise<void> {
+    const { generation } = this;
+    const all: Trust[] = await this.client.ask({ do: "trust" });
+    if (generation !== this.generation) return;
+    this.trust = "";
+    for (const one of all) {
+      if (one.open) continue;
+      if (this.flying === 1) this.trust = `its first ${one.hits} hits can be trusted in doubles`;
+      this.trace.mark(one.slot, one.hits);
+    }
+    this.table.showMarks();
+  }
+
   private async countDecisions(): Promise<void> {
     if (!this.flying || this.busy) return;
+    if (this.flying <= TRUSTED) await this.askForTrust();
     const { generation } = this;
     const { filter, exact } = await this.client.ask({ do: "decisions" });
     if (generation !== this.generation || exact === undefined || filter + exact === 0) return;

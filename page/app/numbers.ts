@@ -16,7 +16,14 @@ interface Kind {
   plot(result: Result): { options: Partial<uPlot.Options>; data: uPlot.AlignedData };
 }
 
-const PATIENCE = 5; // seconds that one ensemble may take before the doubling waits
+/** A worker, and its number of the system. */
+interface Worked {
+  client: Client;
+  system: number;
+}
+
+const workers = Math.max(1, Math.min(4, navigator.hardwareConcurrency - 1));
+const PATIENCE = 8; // seconds that one ensemble may take before the doubling waits
 
 /** Both axes logarithmic, no farther than the data. */
 const logarithmic: uPlot.Scales = {
@@ -146,9 +153,13 @@ class Panel {
   private readonly digest = make("span", { class: "digest" });
   private readonly command = make("code");
   private readonly copy = make("button", { type: "button", textContent: "copy command", class: "link" });
+  readonly more = make("button", { type: "button", textContent: "more", class: "link", hidden: true });
   private readonly result = make("div", { class: "proof", hidden: true });
   private plot?: uPlot;
   private last?: Result;
+  /** What the engine needs to add up what was flown. */
+  readonly parts: string[] = [];
+  private flown = 0;
   next: number;
   done = false;
 
@@ -157,10 +168,22 @@ class Panel {
     this.next = kind.first;
     this.copy.addEventListener("click", () => void copy(this.command.textContent!, this.copy));
     this.result.append(make("span", {}, "digest ", this.digest), this.copy, this.command);
-    this.element = make("section", { class: "panel" }, make("h2", {}, kind.heading, " ", this.size), this.chart, this.facts, this.result);
+    this.element = make("section", { class: "panel" }, make("h2", {}, kind.heading, " ", this.size, " ", this.more), this.chart, this.facts, this.result);
     this.element.dataset.analysis = kind.analysis;
     this.chart.append(make("p", { class: "note", textContent: `The first ensemble is being computed: ${kind.first} trajectories.` }));
     new ResizeObserver(() => this.plot?.setSize(this.room())).observe(this.chart);
+  }
+
+  /** Flies the trajectories up to `to` that have not been flown, a part on each worker. */
+  async add(workers: Worked[], request: object, to: number): Promise<void> {
+    const count = Math.min(workers.length, Math.ceil((to - this.flown) / 64));
+    const edge = (i: number) => this.flown + Math.round(((to - this.flown) * i) / count);
+    const parts = Array.from({ length: count }, (_, i) => {
+      const { client, system } = workers[i];
+      return client.call({ ...request, system, part: [edge(i), edge(i + 1)] });
+    });
+    for (const { part } of await Promise.all(parts)) this.parts.push(part);
+    this.flown = to;
   }
 
   show(result: Result, asked: number): void {
@@ -172,6 +195,12 @@ class Panel {
     this.command.textContent = result.command;
     this.result.hidden = false;
     this.draw();
+  }
+
+  /** No further ensemble, unless the reader asks for it. */
+  rest(done: boolean, canGoOn: boolean): void {
+    this.done = done;
+    this.more.hidden = !(done && canGoOn);
   }
 
   refuse(text: string): void {
@@ -236,13 +265,14 @@ function label(value: number): string {
 
 export class Numbers {
   private panels: Panel[] = [];
-  private client?: Client;
+  private clients: Client[] = [];
   private run = 0;
+  private working = false;
 
   constructor(private readonly place: HTMLElement) {}
 
-  /** Begins anew for a system; `name` is its built-in name where the text is unchanged. */
-  async show(text: string, name: string | undefined, system: System): Promise<void> {
+  /** Begins anew for a system. */
+  async show(text: string, system: System): Promise<void> {
     this.stop();
     const run = this.run;
     const holes = system.walls.some((wall) => wall.hole);
@@ -254,16 +284,30 @@ export class Numbers {
     }));
     this.place.classList.remove("stale");
     this.place.replaceChildren(...this.panels.map((panel) => panel.element));
-    const client = (this.client = new Client());
+    const clients = (this.clients = Array.from({ length: workers }, () => new Client()));
     try {
-      const { system: id } = await client.call({ do: "load", toml: text, ...(name ? { name } : {}) });
+      const flown = await Promise.all(clients.map(async (client): Promise<Worked> => {
+        const { system: id } = await client.call({ do: "load", toml: text });
+        return { client, system: id };
+      }));
       const limit = Number(system.keys.find((key) => key.section === "run" && key.key === "trajectories")?.value) || 1e5;
-      while (run === this.run && this.panels.some((panel) => !panel.done)) {
-        for (const panel of this.panels) {
-          if (panel.done || run !== this.run) continue;
-          await this.advance(client, id, panel, limit);
+      const goOn = async () => {
+        while (run === this.run && this.panels.some((panel) => !panel.done)) {
+          for (const panel of this.panels) {
+            if (!panel.done && run === this.run) await this.advance(flown, panel, limit, !system.potential);
+          }
         }
+        this.working = false;
+      };
+      for (const panel of this.panels) {
+        panel.more.addEventListener("click", () => {
+          panel.rest(false, true);
+          if (!this.working) void goOn();
+          this.working = true;
+        });
       }
+      this.working = true;
+      await goOn();
     } catch (error) {
       if (run === this.run) throw error;
     }
@@ -272,8 +316,8 @@ export class Numbers {
   /** The system has changed: what stands here is of the one before. */
   stop(): void {
     ++this.run;
-    this.client?.stop();
-    this.client = undefined;
+    for (const client of this.clients) client.stop();
+    this.clients = [];
     this.place.classList.add("stale");
   }
 
@@ -281,16 +325,20 @@ export class Numbers {
     for (const panel of this.panels) panel.draw();
   }
 
-  private async advance(client: Client, system: number, panel: Panel, limit: number): Promise<void> {
+  private async advance(workers: Worked[], panel: Panel, limit: number, inParts: boolean): Promise<void> {
     const begin = performance.now();
     try {
-      const { analysis, options } = panel.kind;
       const trajectories = Math.min(panel.next, limit);
-      const result = await client.call({ do: "ensemble", analysis, system, options: { trajectories, ...options } });
+      const { analysis, options } = panel.kind;
+      const request = { do: "ensemble", analysis, options: { trajectories, ...options } };
+      const [{ client, system }] = workers;
+      if (inParts) await panel.add(workers, request, trajectories);
+      const result = await client.call({ ...request, system, ...(inParts ? { parts: panel.parts } : {}) });
       panel.show(result, trajectories);
       panel.next *= 2;
       // Fewer than asked for: all start alike.
-      panel.done = trajectories === limit || result.trajectories < trajectories || performance.now() - begin > 1000 * PATIENCE;
+      const whole = trajectories === limit || result.trajectories < trajectories;
+      panel.rest(whole || performance.now() - begin > 1000 * PATIENCE, !whole);
     } catch (error) {
       panel.refuse((error as Error).message);
     }

@@ -5,6 +5,9 @@ export type Start =
   | { s: number; v: number }
   | { seed: number; trajectory: number };
 
+/** At most so many orbits are followed by how far they can be trusted. */
+export const TRUSTED = 8;
+
 export interface Wall {
   name: string;
   points: number[];
@@ -45,7 +48,17 @@ export type Request =
   /** Under forces paths are drawn through places this far apart in time. */
   | { do: "grain"; grain: number }
   | { do: "frame"; t: number; budget: number }
-  | { do: "decisions" };
+  | { do: "decisions" }
+  | { do: "trust" };
+
+/** How far the doubles of an orbit can be trusted: its first hits, until t. */
+export interface Trust {
+  slot: number;
+  hits: number;
+  t: number;
+  /** Still, at its last hit. */
+  open: boolean;
+}
 
 /** The answer to `begin`. */
 export interface Begun {

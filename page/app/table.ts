@@ -37,6 +37,7 @@ export class Table {
   private handles: Handle[] = [];
   private seen: [number, number, number, number] = [Infinity, Infinity, -Infinity, -Infinity];
   private grown = false;
+  private alpha = 1;
   private near = matchMedia("(pointer: coarse)").matches;
 
   constructor(place: HTMLElement, private readonly trace: Trace, private readonly events: TableEvents) {
@@ -107,7 +108,9 @@ export class Table {
 
   step(frame: Frame): void {
     this.frame = frame;
-    if (this.withPaths) this.addPaths(frame.hits, frame.trail);
+    const alpha = transparency(this.trace.rows);
+    if (this.withPaths && alpha !== this.alpha) this.draw();
+    else if (this.withPaths) this.addPaths(frame.hits, frame.trail);
     for (const { slot, x, y } of frame.ended) this.gone.push({ slot, x, y });
     if (this.gone.length > 2000) this.gone.splice(0, this.gone.length - 2000);
     this.follow(frame);
@@ -116,6 +119,10 @@ export class Table {
 
   showHandles(handles: Handle[]): void {
     this.handles = handles;
+    this.drawTop();
+  }
+
+  showMarks(): void {
     this.drawTop();
   }
 
@@ -190,6 +197,7 @@ export class Table {
   private draw(): void {
     this.drawWalls();
     this.paths.clearRect(0, 0, this.view.width, this.view.height);
+    this.alpha = transparency(this.trace.rows);
     this.last = new Map([...this.trace.starts].map(([slot, s]) => [slot, [0, s[0], s[1], s[2], s[3]]]));
     if (this.withPaths) {
       if (this.trace.rows > MOST_FLIGHTS) this.last.clear();
@@ -299,7 +307,7 @@ export class Table {
       flight(path, view, from, row);
     }
     g.lineWidth = 0.7;
-    g.globalAlpha = this.trace.rows < 300 ? 0.8 : this.trace.rows < 3000 ? 0.4 : 0.2;
+    g.globalAlpha = this.alpha;
     for (const [colour, path] of byColour) {
       g.strokeStyle = colour;
       g.stroke(path);
@@ -331,6 +339,18 @@ export class Table {
         g.fill();
       });
     }
+    for (const [x, y] of this.trace.marks.values()) {
+      const [px, py] = [view.px(x), view.py(y)];
+      g.strokeStyle = colours.ink;
+      g.lineWidth = 1.5;
+      g.beginPath();
+      for (const [dx, dy] of [[5, 5], [5, -5]]) {
+        g.moveTo(px - dx, py - dy);
+        g.lineTo(px + dx, py + dy);
+      }
+      g.stroke();
+    }
+    g.lineWidth = 1;
     if (this.orbits <= 300) {
       for (const { slot, x, y } of this.gone) {
         g.strokeStyle = this.colour(slot);
@@ -429,6 +449,12 @@ export class Table {
     }
     event.preventDefault();
   }
+}
+
+/** Of flights, the fainter the more there are, so that caustics show. */
+function transparency(flights: number): number {
+  const [, alpha] = [[300, 0.8], [1000, 0.5], [3000, 0.3], [10000, 0.15], [Infinity, 0.08]].find(([most]) => flights < most)!;
+  return alpha;
 }
 
 /** Adds the flight from one state to the next hit. */

@@ -13,6 +13,8 @@ export class Trace {
   readonly starts = new Map<number, ArrayLike<number>>();
   /** Under forces: slot, x, y along the paths, for all orbits one after the other in time. */
   trail: Float64Array[] = [];
+  /** Where doubles stop to be trusted, by orbit: x, y of the hit. */
+  readonly marks = new Map<number, [number, number]>();
   rows = 0;
   dropped = false;
   private placed = 0;
@@ -21,6 +23,7 @@ export class Trace {
     this.chunks = [];
     this.filled = CHUNK;
     this.starts.clear();
+    this.marks.clear();
     this.trail = [];
     this.placed = 0;
     this.rows = 0;
@@ -43,6 +46,17 @@ export class Trace {
       this.filled += rows;
       this.rows += rows;
       at += rows * FRAME_ROW;
+    }
+  }
+
+  /** Marks a hit of an orbit, counted from 1, if it is kept. */
+  mark(slot: number, hit: number): void {
+    if (this.marks.has(slot) || this.dropped) return;
+    let seen = 0;
+    for (const block of this.blocks()) {
+      for (let at = 0; at < block.length; at += FRAME_ROW) {
+        if (block[at] === slot && ++seen === hit) this.marks.set(slot, [block[at + 2], block[at + 3]]);
+      }
     }
   }
 

@@ -32,6 +32,9 @@ self.onmessage = async (event: MessageEvent) => {
       case "begin":
         self.postMessage({ id, result: flock.begin(ask) });
         break;
+      case "trust":
+        self.postMessage({ id, result: flock.trust() });
+        break;
       case "grain":
         flock.grain = ask.grain;
         self.postMessage({ id, result: null });
