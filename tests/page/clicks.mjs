@@ -175,12 +175,16 @@ try {
   await step("export and digest", async () => {
     await page.waitForFunction(() => location.hash.includes("toml="));
     const exported = await download("toml");
-    await page.waitForFunction(() => document.querySelector('#numbers:not(.stale) [data-analysis="escape"] .digest')?.textContent);
-    const [digest, command] = await panel("escape").evaluate((p) => [p.querySelector(".digest").textContent, p.querySelector("code").textContent]);
-    const words = command.split(" ").slice(1).map((word) => (word === "SYSTEM.toml" ? exported.path : word));
-    const native = JSON.parse(execFileSync(program, [...words, "--json"], { encoding: "utf8", maxBuffer: 1 << 26 }));
-    assert.equal(native.digest, digest, command);
-    return `${command} gives ${digest}`;
+    const said = [];
+    for (const analysis of ["escape", "lyapunov"]) {
+      await page.waitForFunction((name) => document.querySelector(`#numbers:not(.stale) [data-analysis="${name}"] .digest`)?.textContent, analysis);
+      const [digest, command] = await panel(analysis).evaluate((p) => [p.querySelector(".digest").textContent, p.querySelector("code").textContent]);
+      const words = command.split(" ").slice(1).map((word) => (word === "SYSTEM.toml" ? exported.path : word));
+      const native = JSON.parse(execFileSync(program, [...words, "--json"], { encoding: "utf8", maxBuffer: 1 << 26 }));
+      assert.equal(native.digest, digest, command);
+      said.push(`${command} gives ${digest}`);
+    }
+    return said.join("; ");
   });
 
   await step("hits, drawing, picture", async () => {
