@@ -8,12 +8,13 @@ libraries=$build/libraries
 jobs=$(nproc)
 export NODE_PATH=/usr/share/nodejs  # where emscripten's modules are: a Node of other origin does not look there
 
-# Downloads the source packages of GMP and MPFR by a list of their own.
+# Downloads the source packages of GMP and MPFR by a list of their own, from where this machine has its packages.
 fetch() {
-  local apt=$libraries/apt suite
+  local apt=$libraries/apt suite mirror
   suite=$(. /etc/os-release && echo "$VERSION_CODENAME")
+  mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' "Codename: $suite" | sort -u | head -1)
   mkdir -p "$apt/lists/partial" "$apt/cache/archives/partial"
-  echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian $suite main" >"$apt/list"
+  echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $mirror $suite main" >"$apt/list"
   local ours=(-o "Dir::Etc::sourcelist=$apt/list" -o Dir::Etc::sourceparts=- -o "Dir::State::lists=$apt/lists" -o "Dir::Cache=$apt/cache")
   apt-get "${ours[@]}" update
   (cd "$libraries" && apt-get "${ours[@]}" source --download-only gmp mpfr4)
