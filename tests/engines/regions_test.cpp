@@ -319,7 +319,7 @@ TEST(Regions, AreRefusedWhereTheyMeanNothing) {
         box(disc, of_disc, "[[table.wall]]\nlaw = \"diffuse\"\nwall = \"disc\"\n"),
         box(disc, of_disc, "[[table.hole]]\nwall = \"disc\"\ncenter = 1\nwidth = 0.5\n"),
         box(disc, of_disc,
-            "[[potential]]\nkind = \"harmonic\"\nk = 1\n[integrator]\nstep = 0.01\n")})
+            "[[potential]]\nkind = \"harmonic\"\nomega = 1\n[integrator]\nstep = 0.01\n")})
     EXPECT_THROW(system_of(bad), InputError) << bad;
 }
 

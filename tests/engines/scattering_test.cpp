@@ -167,7 +167,7 @@ TEST(Scattering, IsRefusedWhereItMeansNothing) {
   const System system = system_of(stadium + walls("diffuse"));
   EXPECT_THROW(run_lyapunov(system), InputError);
   EXPECT_THROW(system_of(stadium + walls("diffuse") +
-                         "[[potential]]\nkind = \"harmonic\"\nk = 1\n[integrator]\nstep = 0.01\n")
+                         "[[potential]]\nkind = \"harmonic\"\nomega = 1\n[integrator]\nstep = 0.01\n")
                    .run.seed,
                InputError)
       << "forces";

@@ -89,7 +89,7 @@ class World {
   Fate fate(int particle) const;               ///< survived while it has not ended
   State state(int particle) const;             ///< after its last event
   State state_at(int particle, Time t) const;  ///< from its last event on; after its end: there
-  const Particle& particle(int particle) const;
+  const Particle& particle(int particle) const;  ///< as it flies now, in its region
   std::uint64_t hits(int particle) const;
   int last_wall(int particle) const;  ///< -1 before the first hit
   int hole(int particle) const;       ///< -1 unless escaped
