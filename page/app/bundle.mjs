@@ -12,12 +12,15 @@ if (!out) {
   process.exit(2);
 }
 
+const packages = new Set(["uplot"]); // its style sheet
+
 async function bundle(entry) {
-  const { outputFiles } = await build({
+  const { outputFiles, metafile } = await build({
     entryPoints: [resolve(here, entry)],
     bundle: true,
     minify: true,
     write: false,
+    metafile: true,
     format: "iife",
     target: ["chrome110", "firefox113", "safari16.4"],
     alias: { "carom-engine": resolve(factory) },
@@ -26,7 +29,20 @@ async function bundle(entry) {
     legalComments: "inline",
     logLevel: "warning",
   });
+  for (const input of Object.keys(metafile.inputs)) {
+    const name = /node_modules\/((?:@[^/]+\/)?[^/]+)/.exec(input)?.[1];
+    if (name) packages.add(name);
+  }
   return outputFiles[0].text;
+}
+
+/** The licences of what is bundled, which go with it. */
+function licences() {
+  return [...packages].sort().map((name) => {
+    const folder = resolve(here, "../node_modules", name);
+    const { version, license } = JSON.parse(readFileSync(resolve(folder, "package.json"), "utf8"));
+    return `${name} ${version} (${license})\n${readFileSync(resolve(folder, "LICENSE"), "utf8").trim()}`;
+  }).join("\n\n");
 }
 
 // A script's text may not hold the sign that ends it.
@@ -38,6 +54,7 @@ const parts = {
   WORKER: script(await bundle("worker.ts")),
   MAIN: script(await bundle("main.ts")),
 };
-const page = readFileSync(resolve(here, "index.html"), "utf8").replace(/\/\*(CSS|WASM|WORKER|MAIN)\*\//g, (_, name) => parts[name]);
+parts.LICENCES = script(licences());
+const page = readFileSync(resolve(here, "index.html"), "utf8").replace(/\/\*(CSS|WASM|WORKER|MAIN|LICENCES)\*\//g, (_, name) => parts[name]);
 writeFileSync(out, page);
 console.log(`${out}: ${(Buffer.byteLength(page) / 1e6).toFixed(2)} MB`);

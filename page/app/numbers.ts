@@ -12,6 +12,8 @@ interface Kind {
   heading: string;
   first: number;
   options: object;
+  /** A larger ensemble takes over the parts of the smaller one; the windows of exponents depend on the size. */
+  adds: boolean;
   facts(result: Result): [string, string][];
   plot(result: Result): { options: Partial<uPlot.Options>; data: uPlot.AlignedData };
 }
@@ -36,9 +38,10 @@ const escape: Kind = {
   heading: "Survival",
   first: 1000,
   options: {},
+  adds: true,
   facts({ fit, trajectories, survived }) {
     const facts: [string, string][] = [];
-    if (fit?.model) facts.push([`fit for t > ${plain(fit.window[0])}${fit.decided ? "" : ", not decided"}`, fit.model]);
+    if (fit?.model) facts.push([`${fit.decided ? "fit" : "undecided"}, t > ${plain(fit.window[0], 3)}`, fit.model]);
     if (fit?.rate !== undefined) facts.push([fit.local_slope ? "local rate" : "escape rate", withError(fit.rate, fit.stderr)]);
     if (fit?.exponent !== undefined) facts.push([fit.local_slope ? "local exponent" : "exponent", withError(fit.exponent, fit.stderr)]);
     if (fit?.plateau !== undefined) facts.push(["plateau", withError(fit.plateau, fit.plateau_stderr)]);
@@ -87,6 +90,7 @@ const lyapunov: Kind = {
   heading: "Lyapunov exponent",
   first: 16,
   options: {},
+  adds: false,
   facts({ lambda, per_collision, chaotic_share, chaotic_lambda }) {
     const facts: [string, string][] = [];
     if (lambda?.[0]) facts.push(["λ, all orbits", withError(lambda[0].value, lambda[0].stderr)]);
@@ -125,6 +129,7 @@ const diffusion: Kind = {
   heading: "Mean square displacement",
   first: 250,
   options: {},
+  adds: true,
   facts({ D, exponent }) {
     const facts: [string, string][] = [];
     if (D?.value != null) facts.push(["D", withError(D.value, D.stderr)]);
@@ -158,9 +163,10 @@ class Panel {
   private plot?: uPlot;
   private last?: Result;
   /** What the engine needs to add up what was flown. */
-  readonly parts: string[] = [];
+  parts: string[] = [];
   private flown = 0;
   next: number;
+  spent = 0; // milliseconds
   done = false;
 
   constructor(kind: Kind) {
@@ -176,6 +182,10 @@ class Panel {
 
   /** Flies the trajectories up to `to` that have not been flown, a part on each worker. */
   async add(workers: Worked[], request: object, to: number): Promise<void> {
+    if (!this.kind.adds) {
+      this.parts = [];
+      this.flown = 0;
+    }
     const count = Math.min(workers.length, Math.ceil((to - this.flown) / 64));
     const edge = (i: number) => this.flown + Math.round(((to - this.flown) * i) / count);
     const parts = Array.from({ length: count }, (_, i) => {
@@ -205,8 +215,8 @@ class Panel {
 
   refuse(text: string): void {
     this.done = true;
-    if (this.last) return;
-    this.chart.replaceChildren(make("p", { class: "note", textContent: text }));
+    if (this.last) this.size.textContent += `; ${text}`;
+    else this.chart.replaceChildren(make("p", { class: "note", textContent: text }));
   }
 
   draw(): void {
@@ -292,10 +302,11 @@ export class Numbers {
       }));
       const limit = Number(system.keys.find((key) => key.section === "run" && key.key === "trajectories")?.value) || 1e5;
       const goOn = async () => {
-        while (run === this.run && this.panels.some((panel) => !panel.done)) {
-          for (const panel of this.panels) {
-            if (!panel.done && run === this.run) await this.advance(flown, panel, limit, !system.potential);
-          }
+        while (run === this.run) {
+          // In turn, by the time that each has taken.
+          const [panel] = this.panels.filter((one) => !one.done).sort((a, b) => a.spent - b.spent);
+          if (!panel) break;
+          await this.advance(flown, panel, limit, !system.potential);
         }
         this.working = false;
       };
@@ -338,7 +349,9 @@ export class Numbers {
       panel.next *= 2;
       // Fewer than asked for: all start alike.
       const whole = trajectories === limit || result.trajectories < trajectories;
-      panel.rest(whole || performance.now() - begin > 1000 * PATIENCE, !whole);
+      const spent = performance.now() - begin;
+      panel.spent += spent;
+      panel.rest(whole || spent > 1000 * PATIENCE, !whole);
     } catch (error) {
       panel.refuse((error as Error).message);
     }

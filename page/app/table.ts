@@ -337,6 +337,9 @@ export class Table {
         g.beginPath();
         g.arc(view.px(x), view.py(y), this.orbits > 40 ? 2 : 3.5, 0, 2 * Math.PI);
         g.fill();
+        g.strokeStyle = colours.paper; // apart from its path
+        g.lineWidth = 1;
+        g.stroke();
       });
     }
     for (const [x, y] of this.trace.marks.values()) {
