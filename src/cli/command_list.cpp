@@ -246,7 +246,7 @@ void define_commands(CLI::App& app, Options& o) {
   Command(app, o, look, "page", "Open the page that computes in a browser",
           "Examples:\n"
           "  carom page\n"
-          "  carom page mushroom --set table.stem_width=0.3     with that system\n"
+          "  carom page mushroom --set field.B=0.3     with that system\n"
           "\n"
           "What the page shows is what carom computes, to the last bit. On a terminal the page is "
           "opened; its address is printed everywhere.")

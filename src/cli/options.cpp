@@ -228,8 +228,8 @@ Parsed parse(int argc, char** argv) {
   options.command = app.get_subcommands().front()->get_name();
   const bool resumes = !options.resume.empty();
   if (options.command != "systems" && options.command != "schemes" &&
-      options.command != "validate" && options.command != "merge" && options.system.empty() &&
-      !resumes)
+      options.command != "validate" && options.command != "merge" && options.command != "page" &&
+      options.system.empty() && !resumes)
     complain("SYSTEM is missing: a built-in name (carom systems) or a TOML file");
   else if (options.command == "run" && resumes && !options.system.empty())
     complain("--resume takes the system from the archive: leave SYSTEM out");

@@ -52,6 +52,11 @@ constexpr const char* start_of_module =
     "def stop(*_):\n"
     "  for one in signals: signal.signal(one, signal.SIG_IGN)\n"
     "  sys.exit(130)\n"
+    "def again(ignored):\n"  // Python drops what is raised in some of its own callbacks
+    "  if ignored.exc_type is not SystemExit: return sys.__unraisablehook__(ignored)\n"
+    "  signal.signal(signal.SIGALRM, stop)\n"
+    "  signal.setitimer(signal.ITIMER_REAL, 0.01)\n"
+    "sys.unraisablehook = again\n"
     "for one in signals:\n"
     "  if signal.getsignal(one) is not signal.SIG_IGN: signal.signal(one, stop)\n"
     "try:\n"

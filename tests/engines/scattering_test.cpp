@@ -166,10 +166,11 @@ TEST(Scattering, GivesOneDigestHoweverTheWorkIsShared) {
 TEST(Scattering, IsRefusedWhereItMeansNothing) {
   const System system = system_of(stadium + walls("diffuse"));
   EXPECT_THROW(run_lyapunov(system), InputError);
-  EXPECT_THROW(system_of(stadium + walls("diffuse") +
-                         "[[potential]]\nkind = \"harmonic\"\nomega = 1\n[integrator]\nstep = 0.01\n")
-                   .run.seed,
-               InputError)
+  EXPECT_THROW(
+      system_of(stadium + walls("diffuse") +
+                "[[potential]]\nkind = \"harmonic\"\nomega = 1\n[integrator]\nstep = 0.01\n")
+          .run.seed,
+      InputError)
       << "forces";
   EXPECT_THROW(system_of(stadium + walls("fuzzy")), InputError);
   EXPECT_THROW(system_of(stadium + walls("mixed")), InputError);

@@ -85,10 +85,10 @@ class World {
   }
 
   int size() const;
-  bool finished(int particle) const;           ///< has ended
-  Fate fate(int particle) const;               ///< survived while it has not ended
-  State state(int particle) const;             ///< after its last event
-  State state_at(int particle, Time t) const;  ///< from its last event on; after its end: there
+  bool finished(int particle) const;             ///< has ended
+  Fate fate(int particle) const;                 ///< survived while it has not ended
+  State state(int particle) const;               ///< after its last event
+  State state_at(int particle, Time t) const;    ///< from its last event on; after its end: there
   const Particle& particle(int particle) const;  ///< as it flies now, in its region
   std::uint64_t hits(int particle) const;
   int last_wall(int particle) const;  ///< -1 before the first hit
