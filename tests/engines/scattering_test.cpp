@@ -167,9 +167,9 @@ TEST(Scattering, IsRefusedWhereItMeansNothing) {
   const System system = system_of(stadium + walls("diffuse"));
   EXPECT_THROW(run_lyapunov(system), InputError);
   EXPECT_THROW(
-      system_of(stadium + walls("diffuse") +
-                "[[potential]]\nkind = \"harmonic\"\nomega = 1\n[integrator]\nstep = 0.01\n")
-          .run.seed,
+      run_escape(system_of(stadium + walls("diffuse") +
+                           "[[potential]]\nkind = \"harmonic\"\nomega = 1\n[integrator]\nstep = "
+                           "0.01\n[run]\nt_max = 1\ntrajectories = 1\n")),
       InputError)
       << "forces";
   EXPECT_THROW(system_of(stadium + walls("fuzzy")), InputError);
