@@ -60,7 +60,8 @@ Options typed(const Request& request, const OpenSystem& open) {
     options.overrides.set.emplace_back(path, value);
     options.line += " --set " + in_shell(path + "=" + value);
   };
-  for (const auto& [key, value] : request.get_child("options", {})) {
+  static const Request none;
+  for (const auto& [key, value] : request.get_child("options", none)) {
     const std::string& text = value.data();
     if (key == "set") {
       for (const auto& [path, one] : value) set(path, one.data());

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "carom/files/ensembles.hpp"
+#include "files/text_file.hpp"
 #include "lanes/free/kernels.hpp"
 #include "lanes/free/tangent_pack.hpp"
 #include "lanes/soft/soft_pack.hpp"
@@ -9,6 +10,11 @@
 namespace carom {
 
 std::string text_of(const Shard& shard) { return fmt::format("{}/{}", shard.k, shard.of); }
+
+std::string files::text_of_file(const std::string&, std::size_t, const Place& place,
+                                const std::string& subject, const std::string& expected) {
+  throw InputError(place, subject + "cannot be read: the page reads no files", expected);
+}
 
 // Each analysis is told to fly without lanes: a register holds one or two numbers.
 namespace lanes {

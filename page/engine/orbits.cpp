@@ -57,7 +57,7 @@ class Flight final : public Observer {
     asked_ = particle;
     wanted_ = n;
     std::deque<Row>& rows = rows_[particle];
-    if (rows.size() < n && !world_.finished(static_cast<int>(particle))) fly(world_, no_last_time);
+    if (rows.size() < n && !world_.finished(static_cast<int>(particle))) fly();
     const std::size_t count = std::min(n, rows.size());
     for (std::size_t i = 0; i < count; ++i, rows.pop_front(), out += row)
       std::copy(rows.front().begin(), rows.front().end(), out);
@@ -70,8 +70,7 @@ class Flight final : public Observer {
       places_.emplace(Places{open_->world.empty_copy(), 0.0});
       start(places_->world);
     }
-    Observer none;
-    places_->world.run_until(t, none, patience());
+    places_->world.run_until(t);
     places_->time = t;
     const auto number = static_cast<int>(particle);
     const SampleRow at = sample_row(number, t, places_->world.state_at(number, t), table());
@@ -91,7 +90,7 @@ class Flight final : public Observer {
     const std::size_t all = act_on_each_other(system()) ? system().particles.size() : 1;
     const auto seed = start.get_optional<std::uint64_t>("seed");
     trajectory_ = start.get<std::uint64_t>("trajectory", 0);
-    Starts& written = open_->as_written;
+    Starts& written = open_->starts();
     written.system.run.seed = seed.value_or(system().run.seed);
     if (seed && all > 1) {
       states_ = written.sampler.draw_all(world_, trajectory_);
@@ -104,7 +103,7 @@ class Flight final : public Observer {
   }
   void start(World& world) const {
     for (std::size_t p = 0; p < states_.size(); ++p)
-      add_start(world, open_->as_written.system, states_[p], trajectory_, static_cast<int>(p));
+      add_start(world, open_->starts().system, states_[p], trajectory_, static_cast<int>(p));
   }
 
   State given(const Request& start) {
@@ -117,23 +116,23 @@ class Flight final : public Observer {
       return v;
     };
     if (start.count("position") > 0) {
-      InitialCondition& initial = open_->at_point.system.initial;
-      initial.position = pair("position");
-      initial.velocity = pair("velocity");
-      return open_->at_point.sampler.draw(world_, 0, 0);
+      Starts& point = open_->starts_at(InitialCondition::Kind::point);
+      point.system.initial.position = pair("position");
+      point.system.initial.velocity = pair("velocity");
+      return point.sampler.draw(world_, 0, 0);
     }
-    InitialCondition& initial = open_->on_wall.system.initial;
-    initial.s = {start.get("s", 0.0)};
-    initial.v_parallel = {start.get("v", 0.0) * system().particles.front().speed};
-    return open_->on_wall.sampler.draw(world_, 0, 0);
+    Starts& wall = open_->starts_at(InitialCondition::Kind::birkhoff);
+    wall.system.initial.s = {start.get("s", 0.0)};
+    wall.system.initial.v_parallel = {start.get("v", 0.0) * system().particles.front().speed};
+    return wall.sampler.draw(world_, 0, 0);
   }
 
   // Without walls there are no hits to wait for.
-  static std::function<bool()> patience() {
+  void fly() {
     using Clock = std::chrono::steady_clock;
-    return [end = Clock::now() + std::chrono::milliseconds(200)] { return Clock::now() > end; };
+    const Clock::time_point end = Clock::now() + std::chrono::milliseconds(200);
+    world_.run_until(no_last_time, *this, [end] { return Clock::now() > end; });
   }
-  void fly(World& world, double t) { world.run_until(t, *this, patience()); }
 
   // Of the flight that led to a hit, positive to the left; where forces act it has none.
   double curvature_before(const HitEvent& event) const {

@@ -1,9 +1,12 @@
 #include "portable.hpp"
 
+#include <fast_float/fast_float.h>
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <string>
+
+#include "read_double.hpp"
 
 namespace std {
 
@@ -31,6 +34,12 @@ to_chars_result to_chars(char* begin, char*, double x) {
   }
   if (__builtin_signbit(x)) text.insert(0, 1, '-');
   return {copy(text.begin(), text.end(), begin), {}};
+}
+
+// What is too large is no number, as where the parser reads by streams.
+from_chars_result from_chars(const char* begin, const char* end, double& x, chars_format) {
+  const auto [next, error] = fast_float::from_chars(begin, end, x);
+  return {next, __builtin_isinf(x) ? errc::invalid_argument : error};
 }
 
 }  // namespace std

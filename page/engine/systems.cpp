@@ -23,19 +23,7 @@ std::string name_of(const std::string& toml) {
   return "SYSTEM.toml";
 }
 
-System with_starts(System system, InitialCondition::Kind kind) {
-  system.initial.kind = kind;
-  if (kind == InitialCondition::Kind::birkhoff) {
-    system.initial.wall = -1;
-    system.initial.s = system.initial.v_parallel = {0.0};
-  }
-  return system;
-}
-
 }  // namespace
-
-Starts::Starts(const System& other, InitialCondition::Kind kind)
-    : system(with_starts(other, kind)), sampler(system) {}
 
 OpenSystem::OpenSystem(std::string text)
     : toml(std::move(text)),
@@ -43,12 +31,21 @@ OpenSystem::OpenSystem(std::string text)
       loaded(read_system(toml, name)),
       frames(frames_of(*system().table)),
       offsets{0.0},
-      world(make_world(system())),
-      as_written(system(), system().initial.kind),
-      at_point(system(), InitialCondition::Kind::point),
-      on_wall(system(), InitialCondition::Kind::birkhoff) {
+      world(make_world(system())) {
   for (const geometry::CurveFrame& frame : frames)
     offsets.push_back(offsets.back() + geometry::length(frame));
+}
+
+Starts& OpenSystem::starts() {
+  if (!starts_) starts_.emplace(system());
+  return *starts_;
+}
+
+Starts& OpenSystem::starts_at(InitialCondition::Kind kind) {
+  if (const auto found = others_.find(kind); found != others_.end()) return found->second;
+  System other = system();
+  other.initial = {.kind = kind, .s = {0.0}, .v_parallel = {0.0}, .place = other.initial.place};
+  return others_.try_emplace(kind, std::move(other)).first->second;
 }
 
 Json load(const Request& request) {

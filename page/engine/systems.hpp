@@ -1,8 +1,11 @@
 // The systems that the page has loaded.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calls.hpp"
@@ -13,12 +16,13 @@
 
 namespace carom::page {
 
-/// A system with starts of one kind. They are read when a state is drawn, so they may change.
+/// Starts of one kind. They are read when a state is drawn, so they may change.
 struct Starts {
   System system;
   Sampler sampler;
 
-  Starts(const System& other, InitialCondition::Kind kind);
+  /// Throws InputError where the particles cannot start so.
+  explicit Starts(System with) : system(std::move(with)), sampler(system) {}
   Starts(const Starts&) = delete;
 };
 
@@ -28,12 +32,18 @@ struct OpenSystem {
   std::vector<geometry::CurveFrame> frames;
   std::vector<double> offsets;  ///< arc length where each wall begins; last the length of all
   World world;                  ///< without particles
-  Starts as_written, at_point, on_wall;
 
   /// Throws InputError.
   explicit OpenSystem(std::string text);
   OpenSystem(const OpenSystem&) = delete;
   const System& system() const { return loaded.system; }
+  /// Those of the file, and others in their place: a point, or a place of the boundary.
+  Starts& starts();
+  Starts& starts_at(InitialCondition::Kind);
+
+ private:
+  std::optional<Starts> starts_;
+  std::map<InitialCondition::Kind, Starts> others_;
 };
 
 /// Throws InputError where it is not loaded.

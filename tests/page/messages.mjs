@@ -46,5 +46,7 @@ await each(broken.entries(), async ([number, text]) => {
   const place = /^SYSTEM\.toml, line (\d+)(?:, column (\d+))?/.exec(answer.error);
   expect((place?.[1] ?? 0) == (answer.line ?? 0) && (place?.[2] ?? 0) == (answer.column ?? 0), `${number}: place of ${answer.error}`);
 });
+const file = call({ do: "load", toml: '[table]\nshape = "polygon"\npath = "corners.txt"\n' });
+expect(file.line === 3 && /reads no files/.test(file.error), `a file: ${file.error}`);
 expect(refused >= 100, `only ${refused} of ${broken.length} are refused`);
 finish("messages");
