@@ -306,6 +306,7 @@ export class Numbers {
           // In turn, by the time that each has taken.
           const [panel] = this.panels.filter((one) => !one.done).sort((a, b) => a.spent - b.spent);
           if (!panel) break;
+          while (document.hidden) await new Promise((seen) => document.addEventListener("visibilitychange", seen, { once: true }));
           await this.advance(flown, panel, limit, !system.potential);
         }
         this.working = false;

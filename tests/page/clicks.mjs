@@ -136,6 +136,28 @@ try {
     await page.mouse.dblclick(box.x + box.width / 2, box.y + box.height / 2);
   });
 
+  await step("handle on a wall", async () => {
+    await page.waitForFunction(() => window.carom.motion.table.handles.length > 0);
+    const handle = await page.evaluate(() => {
+      const { handles, view } = window.carom.motion.table;
+      const { key, x, y, dx, dy } = handles[0];
+      return { key: key.key, value: key.value, x: view.px(x), y: view.py(y), dx, dy: -dy };
+    });
+    const box = await page.locator("#table").boundingBox();
+    const [x, y] = [box.x + handle.x, box.y + handle.y];
+    const long = Math.hypot(handle.dx, handle.dy);
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x - (20 * handle.dx) / long, y - (20 * handle.dy) / long, { steps: 3 });
+    await page.mouse.up();
+    await page.waitForFunction(() => location.hash.includes("toml="));
+    const value = Number(new RegExp(`^${handle.key}\\s*=\\s*(\\S+)`, "m").exec(await tomlOf())[1]);
+    assert.ok(value < handle.value, `${handle.key} = ${value} is less than ${handle.value}`);
+    assert.equal(await text("error"), "");
+    await pick("stadium");
+    return `${handle.key} from ${handle.value} to ${value}`;
+  });
+
   await step("slider", async () => {
     const radius = page.locator('#sliders input[type="range"][aria-label*="radius"]');
     await radius.focus();
