@@ -88,7 +88,7 @@ export class Motion {
     this.from = from;
     this.begun += begun.slots.length;
     this.flying = (keep ? this.flying : 0) + begun.slots.length;
-    begun.slots.forEach((slot, i) => this.trace.starts.set(slot, begun.states.slice(4 * i, 4 * i + 4)));
+    begun.slots.forEach((slot, i) => this.trace.begin(slot, begun.states.slice(4 * i, 4 * i + 4)));
     this.table.started(begun.slots, begun.states, this.flying);
     const box = system.box;
     const speed = Math.hypot(begun.states[2], begun.states[3]) || 1;

@@ -111,7 +111,10 @@ export class Table {
     const alpha = transparency(this.trace.rows);
     if (this.withPaths && alpha !== this.alpha) this.draw();
     else if (this.withPaths) this.addPaths(frame.hits, frame.trail);
-    for (const { slot, x, y } of frame.ended) this.gone.push({ slot, x, y });
+    for (const { slot, x, y } of frame.ended) {
+      this.gone.push({ slot, x, y });
+      this.last.delete(slot);
+    }
     if (this.gone.length > 2000) this.gone.splice(0, this.gone.length - 2000);
     this.follow(frame);
     this.drawTop();

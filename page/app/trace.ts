@@ -3,6 +3,7 @@ import { FRAME_ROW } from "./protocol";
 
 const CHUNK = 1 << 13; // rows
 const MOST = 40; // chunks
+const MOST_STARTS = 10000;
 const MOST_PLACES = 60000; // of paths under forces
 
 export class Trace {
@@ -58,6 +59,12 @@ export class Trace {
         if (block[at] === slot && ++seen === hit) this.marks.set(slot, [block[at + 2], block[at + 3]]);
       }
     }
+  }
+
+  /** An orbit begins; of long runs the first starts are forgotten. */
+  begin(slot: number, state: ArrayLike<number>): void {
+    this.starts.set(slot, state);
+    if (this.starts.size > MOST_STARTS) this.starts.delete(this.starts.keys().next().value!);
   }
 
   addTrail(places: Float64Array): void {
