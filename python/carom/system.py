@@ -433,6 +433,36 @@ def discs(centers, radius=None, radii=None) -> System:
 
 
 @_of_keywords
+def limacon(radius=1, epsilon=0.5) -> System:
+    """Pascal's limaçon r = radius·(1 + epsilon·cos φ) (length)."""
+    return _shape("limacon", radius=radius, epsilon=epsilon)
+
+
+@_of_keywords
+def flower(radius=1, epsilon=0.2, petals=5) -> System:
+    """A wavy circle r = radius·(1 + epsilon·cos(petals·φ)) (length)."""
+    return _shape("flower", radius=radius, epsilon=epsilon, petals=petals)
+
+
+@_of_keywords
+def superellipse(a=1, b=1, exponent=4) -> System:
+    """The curve |x/a|ⁿ + |y/b|ⁿ = 1 (lengths), n even."""
+    return _shape("superellipse", a=a, b=b, exponent=exponent)
+
+
+@_of_keywords
+def robnik(radius=1, lambda_=0.3) -> System:
+    """Robnik's billiard: the unit circle mapped by z + lambda_·z², times the radius (length)."""
+    return _shape("robnik", radius=radius, **{"lambda": lambda_})
+
+
+@_of_keywords
+def egg(a=1.2, b=1, epsilon=0.2) -> System:
+    """x = a·cos t, y = b·sin t·(1 + epsilon·cos t) (lengths)."""
+    return _shape("egg", a=a, b=b, epsilon=epsilon)
+
+
+@_of_keywords
 def polar(radius) -> System:
     """A wall r = radius(φ) about the origin (length), a formula of `phi`: "1 + 0.3*cos(3*phi)"; walls curve_1,
     curve_2, … from the angle 0."""

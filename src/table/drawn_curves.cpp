@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <stdexcept>
 #include <string>
 
 #include "carom/base/elementary.hpp"
+#include "carom/base/whole_number.hpp"
 #include "carom/geometry/curve_frame.hpp"
 #include "forces/formula_bound.hpp"
 #include "table/numbers.hpp"
@@ -39,9 +42,12 @@ Bezier quintic(const Jet& a, const Jet& b) {
 
 using Formula = TypedExpression;
 
-Formula parsed(const WrittenFormula& written, const char* variable) {
+using Numbers = std::map<std::string, double>;
+
+/// `numbers`: by the names that the formula has for them.
+Formula parsed(const WrittenFormula& written, const char* variable, const Numbers& numbers = {}) {
   const std::vector<std::string> variables{variable};
-  return Formula::parse(written.text, variables, {}, written.place);
+  return Formula::parse(written.text, variables, numbers, written.place);
 }
 
 /// r(phi).
@@ -268,6 +274,68 @@ Shape parametric_curve(const TableSpec& spec) {
   const double from = number_or(spec, "from", "0").to_double(), to = end.to_double();
   if (!(to > from)) throw InputError(end.place(), "'to' is not larger than 'from'", "from < to");
   return Drawing(Parametric{x.place, parsed(x, "t"), parsed(y, "t"), from, to}).shape();
+}
+
+namespace {
+Shape polar_of(const TableSpec& spec, const std::string& radius, const Numbers& numbers) {
+  const WrittenFormula formula{radius, spec.shape_place};
+  return Drawing(Polar{spec.shape_place, parsed(formula, "phi", numbers)}).shape();
+}
+Shape parametric_of(const TableSpec& spec, const char* x, const char* y, const Numbers& numbers) {
+  const Place& place = spec.shape_place;
+  return Drawing(Parametric{place, parsed({x, place}, "t", numbers),
+                            parsed({y, place}, "t", numbers), 0.0, two_pi})
+      .shape();
+}
+/// A number whose absolute value is below a bound, which is written as `text`.
+double below(const TableSpec& spec, const char* key, double bound, const char* text) {
+  const ExactNumber& value = number(spec, key);
+  const double x = value.to_double();
+  if (std::fabs(x) < bound) return x;
+  throw InputError(value.place(),
+                   std::string("'") + key + "' is " + value.text() +
+                       ", from where on the curve has a cusp or crosses itself",
+                   std::string("a number above -") + text + " and below " + text);
+}
+std::uint64_t whole(const TableSpec& spec, const char* key, std::uint64_t low, std::uint64_t high,
+                    std::uint64_t step) {
+  const ExactNumber& value = number(spec, key);
+  const auto n = whole_number(value, low, high);
+  if (n && *n % step == 0) return *n;
+  throw InputError(value.place(), std::string("'") + key + "' is " + value.text(),
+                   std::string(step == 2 ? "an even" : "a whole") + " number from " +
+                       std::to_string(low) + " to " + std::to_string(high));
+}
+}  // namespace
+
+Shape limacon(const TableSpec& spec) {
+  return polar_of(spec, "R*(1 + eps*cos(phi))",
+                  {{"R", size(spec, "radius")}, {"eps", below(spec, "epsilon", 1.0, "1")}});
+}
+
+Shape flower(const TableSpec& spec) {
+  return polar_of(spec, "R*(1 + eps*cos(n*phi))",
+                  {{"R", size(spec, "radius")},
+                   {"eps", below(spec, "epsilon", 1.0, "1")},
+                   {"n", static_cast<double>(whole(spec, "petals", 1, 100, 1))}});
+}
+
+Shape superellipse(const TableSpec& spec) {
+  // An exponent that is a number in the formula is a product, which a negative number has, too.
+  const std::string n = std::to_string(whole(spec, "exponent", 2, 20, 2));
+  return polar_of(spec, "((cos(phi)/a)^" + n + " + (sin(phi)/b)^" + n + ")^(-1/" + n + ")",
+                  {{"a", size(spec, "a")}, {"b", size(spec, "b")}});
+}
+
+Shape robnik(const TableSpec& spec) {
+  return parametric_of(spec, "R*(cos(t) + k*cos(2*t))", "R*(sin(t) + k*sin(2*t))",
+                       {{"R", size(spec, "radius")}, {"k", below(spec, "lambda", 0.5, "1/2")}});
+}
+
+Shape egg(const TableSpec& spec) {
+  return parametric_of(
+      spec, "a*cos(t)", "b*sin(t)*(1 + eps*cos(t))",
+      {{"a", size(spec, "a")}, {"b", size(spec, "b")}, {"eps", below(spec, "epsilon", 1.0, "1")}});
 }
 
 Shape spline_curve(const TableSpec& spec) {

@@ -97,6 +97,22 @@ MadeTable mushroom(const ExactNumber& cap_radius, const ExactNumber& stem_width,
 MadeTable lemon(const ExactNumber& radius, const ExactNumber& separation) {
   return MadeTable(shaped("lemon", {{"radius", radius}, {"separation", separation}}));
 }
+MadeTable limacon(const ExactNumber& radius, const ExactNumber& epsilon) {
+  return MadeTable(shaped("limacon", {{"radius", radius}, {"epsilon", epsilon}}));
+}
+MadeTable flower(const ExactNumber& radius, const ExactNumber& epsilon, int petals) {
+  return MadeTable(
+      shaped("flower", {{"radius", radius}, {"epsilon", epsilon}, {"petals", petals}}));
+}
+MadeTable superellipse(const ExactNumber& a, const ExactNumber& b, int exponent) {
+  return MadeTable(shaped("superellipse", {{"a", a}, {"b", b}, {"exponent", exponent}}));
+}
+MadeTable robnik(const ExactNumber& radius, const ExactNumber& lambda) {
+  return MadeTable(shaped("robnik", {{"radius", radius}, {"lambda", lambda}}));
+}
+MadeTable egg(const ExactNumber& a, const ExactNumber& b, const ExactNumber& epsilon) {
+  return MadeTable(shaped("egg", {{"a", a}, {"b", b}, {"epsilon", epsilon}}));
+}
 MadeTable sinai(const ExactNumber& side, const ExactNumber& radius, bool torus) {
   TableSpec spec = shaped("sinai", {{"side", side}, {"radius", radius}});
   spec.torus = torus;

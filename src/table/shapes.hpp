@@ -111,6 +111,12 @@ Shape path(const TableSpec&);
 Shape polar_curve(const TableSpec&);
 /// A closed curve x(t), y(t), as Bézier curves.
 Shape parametric_curve(const TableSpec&);
+/// Curves with a name, by their formulas.
+Shape limacon(const TableSpec&);
+Shape flower(const TableSpec&);
+Shape superellipse(const TableSpec&);
+Shape robnik(const TableSpec&);
+Shape egg(const TableSpec&);
 /// The periodic cubic spline through points, twice continuously differentiable.
 Shape spline_curve(const TableSpec&);
 

@@ -25,6 +25,12 @@ TEST(Faults, SizesMustFitTogether) {
   EXPECT_EQ(blamed(shape("sinai", {{"side", "1"}, {"radius", "0.6"}})), "table.radius");
   EXPECT_EQ(blamed(shape("lorentz", {{"spacing", "1"}, {"radius", "0.6"}})), "table.radius");
   EXPECT_EQ(blamed(shape("regular", {{"sides", "2"}, {"radius", "1"}})), "table.sides");
+  EXPECT_EQ(blamed(shape("limacon", {{"radius", "1"}, {"epsilon", "1"}})), "table.epsilon");
+  EXPECT_EQ(blamed(shape("robnik", {{"radius", "1"}, {"lambda", "-0.5"}})), "table.lambda");
+  EXPECT_EQ(blamed(shape("superellipse", {{"a", "1"}, {"b", "1"}, {"exponent", "3"}})),
+            "table.exponent");
+  EXPECT_EQ(blamed(shape("flower", {{"radius", "1"}, {"epsilon", "0.1"}, {"petals", "0.5"}})),
+            "table.petals");
   EXPECT_EQ(blamed(shape("regular", {{"sides", "3.5"}, {"radius", "1"}})), "table.sides");
 }
 

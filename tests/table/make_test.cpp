@@ -31,6 +31,15 @@ TEST(Make, EveryShape) {
               build_table(shape("mushroom",
                                 {{"cap_radius", "2"}, {"stem_width", "1"}, {"stem_height", "3"}})));
   expect_same(lemon(2, 1), build_table(shape("lemon", {{"radius", "2"}, {"separation", "1"}})));
+  expect_same(limacon(2, 0.5),
+              build_table(shape("limacon", {{"radius", "2"}, {"epsilon", "1/2"}})));
+  expect_same(flower(2, 0.1, 3),
+              build_table(shape("flower", {{"radius", "2"}, {"epsilon", "0.1"}, {"petals", "3"}})));
+  expect_same(superellipse(2, 1, 4),
+              build_table(shape("superellipse", {{"a", "2"}, {"b", "1"}, {"exponent", "4"}})));
+  expect_same(robnik(2, 0.25), build_table(shape("robnik", {{"radius", "2"}, {"lambda", "1/4"}})));
+  expect_same(egg(2, 1, 0.25),
+              build_table(shape("egg", {{"a", "2"}, {"b", "1"}, {"epsilon", "1/4"}})));
   expect_same(sinai(2, 0.5), build_table(shape("sinai", {{"side", "2"}, {"radius", "1/2"}})));
   EXPECT_EQ(sinai(2, 0.5, false).table->walls.size(), 5u);
   expect_same(lorentz(3, 1), build_table(shape("lorentz", {{"spacing", "3"}, {"radius", "1"}})));

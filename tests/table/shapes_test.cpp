@@ -328,5 +328,30 @@ TEST(Tables, ExtentTellsWhereTheWallsLead) {
   EXPECT_EQ(build_table(obstacle).extent, Extent::open_plane);
 }
 
+TEST(Shapes, CurvesWithANameHaveTheirAreasAndLengths) {
+  const auto expect = [](const TableSpec& spec, double area, double perimeter) {
+    const TableMeasure m = measure(build_table(spec));
+    EXPECT_NEAR(m.area, area, 1e-13 * area) << spec.shape;
+    EXPECT_NEAR(m.perimeter, perimeter, 1e-13 * perimeter) << spec.shape;
+  };
+  expect(shape("limacon", {{"radius", "2"}, {"epsilon", "0"}}), 4 * pi, 4 * pi);
+  // A limaçon is Robnik's curve with lambda = epsilon / 2, displaced.
+  const double k = 0.25,
+               length = 4 * (1 + 2 * k) * std::comp_ellint_2(std::sqrt(8 * k) / (1 + 2 * k));
+  expect(shape("robnik", {{"radius", "3"}, {"lambda", "1/4"}}), 9 * pi * (1 + 2 * k * k),
+         3 * length);
+  expect(shape("limacon", {{"radius", "3"}, {"epsilon", "1/2"}}), 9 * pi * (1 + 0.125), 3 * length);
+  expect(shape("superellipse", {{"a", "2"}, {"b", "1"}, {"exponent", "2"}}), 2 * pi,
+         8 * std::comp_ellint_2(std::sqrt(3.0) / 2));
+  expect(shape("egg", {{"a", "2"}, {"b", "1"}, {"epsilon", "0"}}), 2 * pi,
+         8 * std::comp_ellint_2(std::sqrt(3.0) / 2));
+  const auto area = [](const TableSpec& spec) { return measure(build_table(spec)).area; };
+  EXPECT_NEAR(area(shape("superellipse", {{"a", "2"}, {"b", "1"}, {"exponent", "4"}})),
+              8 * std::pow(std::tgamma(1.25), 2) / std::tgamma(1.5), 1e-12);
+  EXPECT_NEAR(area(shape("flower", {{"radius", "2"}, {"epsilon", "0.2"}, {"petals", "5"}})),
+              4 * pi * 1.02, 1e-12);
+  EXPECT_NEAR(area(shape("egg", {{"a", "2"}, {"b", "1"}, {"epsilon", "0.3"}})), 2 * pi, 1e-12);
+}
+
 }  // namespace
 }  // namespace carom::tests

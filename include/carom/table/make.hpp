@@ -45,6 +45,15 @@ MadeTable stadium(const ExactNumber& half_length, const ExactNumber& radius);
 MadeTable mushroom(const ExactNumber& cap_radius, const ExactNumber& stem_width,
                    const ExactNumber& stem_height);
 MadeTable lemon(const ExactNumber& radius, const ExactNumber& separation);
+/// r = radius (1 + epsilon cos phi), and with cos(petals phi).
+MadeTable limacon(const ExactNumber& radius, const ExactNumber& epsilon);
+MadeTable flower(const ExactNumber& radius, const ExactNumber& epsilon, int petals);
+/// |x/a|^exponent + |y/b|^exponent = 1.
+MadeTable superellipse(const ExactNumber& a, const ExactNumber& b, int exponent);
+/// The image of the unit circle under z + lambda z^2, times the radius.
+MadeTable robnik(const ExactNumber& radius, const ExactNumber& lambda);
+/// x = a cos t, y = b sin t (1 + epsilon cos t).
+MadeTable egg(const ExactNumber& a, const ExactNumber& b, const ExactNumber& epsilon);
 MadeTable sinai(const ExactNumber& side, const ExactNumber& radius, bool torus = true);
 /// `lattice`: triangular or square.
 MadeTable lorentz(const ExactNumber& spacing, const ExactNumber& radius,
