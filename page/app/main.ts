@@ -116,7 +116,10 @@ function shown(loaded: System, fresh: boolean): void {
   section.show(loaded);
 }
 
+let broken: Error | undefined;
+
 function failed(error: Error): void {
+  broken = error;
   const place = error instanceof EngineError ? { line: error.line, column: error.column } : {};
   byId("error").textContent = error.message;
   editor.mark({ text: error.message, ...place });
@@ -159,10 +162,11 @@ async function pick(wanted: string, from?: Start): Promise<void> {
 
 async function open(): Promise<void> {
   let held: Shared = {};
+  let damage: Error | undefined;
   try {
     held = await read(location.hash);
   } catch {
-    failed(new Error("The link is damaged; this is the first system."));
+    damage = new Error("The link is damaged; this is the first system.");
   }
   if (held.particles) setParticles(held.particles);
   if (held.toml !== undefined) {
@@ -173,14 +177,15 @@ async function open(): Promise<void> {
     // The text is kept, with its error; a system flies meanwhile.
     const { toml } = await client.call({ do: "toml", name: FIRST });
     system = await client.call({ do: "load", toml });
-    const error = byId("error").textContent!;
     shown(system!, true);
-    byId("error").textContent = error;
+    sliders.show([], true);
+    failed(broken!);
     await motion.change(system!, undefined, true);
     return;
   }
   try {
     await pick(held.name ?? FIRST, held.start);
+    if (damage) failed(damage);
   } catch (error) {
     await pick(FIRST);
     failed(error as Error);

@@ -64,7 +64,11 @@ export class Motion {
     const reached = fresh ? 0 : Math.min(this.t, 60 * this.pace);
     this.from = from ?? this.from;
     let good = await this.start(system, this.from, true, reached);
-    if (!good && !("seed" in this.from)) good = await this.start(system, { seed: 1, trajectory: 0 }, true, reached);
+    if (!good && !("seed" in this.from)) {
+      const refused = this.note;
+      good = await this.start(system, { seed: 1, trajectory: 0 }, true, reached);
+      this.note = refused;
+    }
   }
 
   /** Starts particles; `fresh` forgets those that fly. False: the engine refuses the start. */
@@ -217,7 +221,7 @@ export class Motion {
     const parts = [
       this.flying === 1 ? "1 particle" : `${count(this.flying)} particles`,
       `t = ${plain(this.t)}`,
-      this.system?.walls.length ? `${count(this.hits)} hits` : "",
+      this.system?.walls.length ? `${count(this.hits)} ${this.hits === 1 ? "hit" : "hits"}` : "",
       this.decisions,
       this.trust,
       this.note,
