@@ -49,6 +49,19 @@ template <bool cells>
   return Sign::positive;
 }
 
+/// Is a Larmor circle certain to miss a disc? With its radius R and the distance D of the centres
+/// that is so where |D^2 - R^2| > 2 R r + r^2; omega (D^2 - R^2) is the side of the disc's centre.
+bool HitFinder::misses_disc(const Flight& f, const PieceTable::Near& disc,
+                            const Origin& origin) const {
+  const Vector d = Vector{disc.x, disc.y} - origin.point;
+  FlightScale scale = origin.scale;
+  scale.delta += disc.centre_error;
+  // 1.01 and 4.01: roundings, and what the energy shell leaves of |v|^2.
+  const double side = std::fabs(side_of_flight(f.velocity, d, f.omega)),
+               beyond = side - side_error(scale, norm_1(d)) - 1.01 * scale.omega * disc.r2;
+  return beyond > 0.0 && beyond * beyond > 4.01 * f.square_speed * disc.r2;
+}
+
 /// On which side of the flight are the joints of some pieces?
 template <bool larmor, bool cells>
 bool HitFinder::see_joints(const Flight& f, std::span<const int> list) {
@@ -83,10 +96,19 @@ void HitFinder::follow(const Flight& f, const Visit& visit, const Passed& passed
                           passed);
 }
 
-/// All pieces that the whole flight may meet, in their order: for the exact stage.
+/// All pieces that the whole flight may meet, in their order.
 const std::vector<int>& HitFinder::pieces_on_way(const Flight& f) {
-  ++flights_;
   list_.clear();
+  if (t_.tree) {
+    const Origin& own = origins_[0];
+    const auto add = [&](int piece) { list_.push_back(piece); };
+    if (f.omega == 0.0)
+      t_.tree->along_line(own.point, f.velocity, own.scale, add);
+    else
+      t_.tree->along_circle(own.point, f.velocity, f.omega, own.scale, add);
+    return list_;
+  }
+  ++flights_;
   follow(
       f,
       [&](int cell) {
@@ -114,7 +136,13 @@ bool HitFinder::filtered_in_grid(const Flight& f, Ahead& ahead) {
     const std::size_t end = t_.grid->first_entry(cell + 1);
     for (std::size_t i = t_.grid->first_entry(cell); i < end; ++i) {
       const PieceTable::Near& near = t_.near[i];
-      if (!larmor && near.disc && meets_disc<cells>(f, near, disc) != Sign::undecided) continue;
+      if (near.disc) {
+        if constexpr (larmor) {
+          if (misses_disc(f, near, origins_[cells ? at(near.offset) : 0])) continue;
+        } else if (meets_disc<cells>(f, near, disc) != Sign::undecided) {
+          continue;
+        }
+      }
       if (seen_[at(near.piece)] == flights_) continue;
       seen_[at(near.piece)] = flights_;
       list_.push_back(near.piece);
@@ -150,16 +178,28 @@ bool HitFinder::filtered_in_grid(const Flight& f, Ahead& ahead) {
   return decided && !(ahead.piece >= 0 && t_.is_rough(f, ahead.piece));
 }
 
+bool HitFinder::filtered_among_many(const Flight& f, Ahead& ahead) {
+  const bool larmor = f.omega != 0.0;
+  if (t_.tree) {
+    double error = 0.0;
+    ahead = Ahead();
+    return larmor ? filtered_of<true, false, true>(f, ahead, pieces_on_way(f), error)
+                  : filtered_of<false, false, true>(f, ahead, pieces_on_way(f), error);
+  }
+  if (t_.cells)
+    return larmor ? filtered_in_grid<true, true>(f, ahead)
+                  : filtered_in_grid<false, true>(f, ahead);
+  return larmor ? filtered_in_grid<true, false>(f, ahead)
+                : filtered_in_grid<false, false>(f, ahead);
+}
+
 void HitFinder::next_in_grid(const Flight& f, Ahead& ahead, DecisionCounts& counts) {
   look_from(f);
   if (flights_ > 0xfffffff0u) {  // the counter of flights begins again
     std::fill(seen_.begin(), seen_.end(), 0);
     flights_ = 0;
   }
-  if (f.omega == 0.0 ? (t_.cells ? filtered_in_grid<false, true>(f, ahead)
-                                 : filtered_in_grid<false, false>(f, ahead))
-                     : (t_.cells ? filtered_in_grid<true, true>(f, ahead)
-                                 : filtered_in_grid<true, false>(f, ahead))) {
+  if (filtered_among_many(f, ahead)) {
     ++counts.filter;
   } else {
     ++counts.exact;

@@ -85,6 +85,7 @@ class HitFinder {
   void next_in_grid(const Flight& flight, Ahead& ahead, DecisionCounts& counts);
   template <bool larmor, bool cells>
   bool filtered_in_grid(const Flight& flight, Ahead& ahead);
+  bool filtered_among_many(const Flight& flight, Ahead& ahead);
   /// The first disc of those that a line is certain to enter from outside.
   struct FirstDisc {
     int piece = -1;
@@ -92,6 +93,7 @@ class HitFinder {
   };
   template <bool cells>
   Sign meets_disc(const Flight& flight, const PieceTable::Near& disc, FirstDisc& first) const;
+  bool misses_disc(const Flight& flight, const PieceTable::Near& disc, const Origin& origin) const;
   const std::vector<int>& pieces_on_way(const Flight& flight);
   template <class Visit, class Passed>
   void follow(const Flight& flight, const Visit& visit, const Passed& passed) const;

@@ -42,6 +42,7 @@ class PieceTable::Preparation : public PieceTable::Shared {
   void find_ellipses();
   void find_enclosure(bool complement);
   void make_grid(bool edges);
+  bool has_long_loops() const;
 
   PieceTable& made_;
   const Table& table_;
@@ -62,6 +63,7 @@ PieceTable::PieceTable(const Table& the_table, DecisionOptions how, bool edges, 
   near = shared_->near;
   exact = shared_->exact.get();
   grid = shared_->grid.get();
+  tree = shared_->tree.get();
 }
 
 PieceTable::Preparation::Preparation(PieceTable& table_made, bool edges, bool complement)
@@ -96,7 +98,13 @@ PieceTable::Preparation::Preparation(PieceTable& table_made, bool edges, bool co
   for (const PreparedCurve& c : curves) made_.reach = std::max(made_.reach, 1.01 * norm_1(c.from));
   for (PieceData& p : data) p.shape = &curves[at(p.curve)];  // curves is complete
   if (edges) find_enclosure(complement);
-  if (static_cast<int>(data.size()) >= made_.options.grid_from) make_grid(edges);
+  if (static_cast<int>(data.size()) < made_.options.grid_from) return;
+  make_grid(edges);
+  if (!made_.cells && has_long_loops()) {
+    std::vector<Curve> in_order;
+    for (const Piece& p : pieces_) in_order.push_back(p.curve);
+    tree = std::make_unique<const ChainTree>(in_order);
+  }
 }
 
 void PieceTable::Preparation::add_edges() {
@@ -304,6 +312,15 @@ void PieceTable::Preparation::find_enclosure(bool complement) {
   made_.enclosure_rounding = 4.1 * unit_roundoff * made_.enclosure.diameter();
 }
 
+/// Pieces of a loop follow each other, and are neighbours: a tree of them pays if loops are long.
+bool PieceTable::Preparation::has_long_loops() const {
+  constexpr std::size_t long_loop = 8;  // pieces, on average
+  std::size_t loops = 0;
+  for (std::size_t i = 0; i < table_.walls.size(); ++i)
+    if (table_.walls[i].next <= static_cast<int>(i)) ++loops;
+  return loops * long_loop <= table_.walls.size();
+}
+
 /// With edges nothing matters outside the lattice's cell; else a flight may start anywhere, but
 /// what does not made_.reach a wall ends nowhere.
 void PieceTable::Preparation::make_grid(bool edges) {
@@ -336,6 +353,18 @@ void PieceTable::Preparation::make_grid(bool edges) {
   for (const int piece : grid->entries()) {
     const PieceData& p = data[at(piece)];
     const PreparedCurve& w = *p.shape;
+    if (p.kind == CurveKind::bezier) {
+      // About its chord's middle, which is a double: all control points within.
+      const BezierForm& curve = *w.parametrisation.bezier;
+      const Vector middle = 0.5 * (w.from + w.to);
+      double r2 = 0.0;
+      for (std::size_t i = 0; i <= curve.degree; ++i) {
+        const Vector d = curve.control[i] - middle;
+        r2 = std::max(r2, 1.0001 * dot(d, d));
+      }
+      near.push_back({middle.x, middle.y, r2, 0.0, piece, p.offset, true, false});
+      continue;
+    }
     const bool disc = p.closed && p.kind == CurveKind::circle;
     near.push_back({w.centre.x, w.centre.y, w.r2, w.centre_error, piece, p.offset, disc,
                     disc && w.orientation < 0});

@@ -14,6 +14,7 @@
 #include "carom/events/decisions.hpp"
 #include "carom/geometry/exact_flight.hpp"
 #include "carom/table/table.hpp"
+#include "events/flight/chain_tree.hpp"
 #include "events/flight/crossing.hpp"
 #include "events/flight/enclosure.hpp"
 #include "events/flight/flight.hpp"
@@ -131,8 +132,9 @@ struct PieceTable {
     geometry::CurveKind kind = geometry::CurveKind::segment;
     int ellipse = -1;  ///< arcs of one: the first of its walls
   };
-  /// An entry of a grid cell's list, with all that a line asks of a disc: one place in memory for
-  /// what is seldom hit.
+  /// An entry of a grid cell's list, with all that a flight asks of a disc: one place in memory for
+  /// what is seldom hit. `disc`: the piece is one, or a Bézier curve within one, which is then said
+  /// to have the domain inside; a flight that misses the disc misses both.
   struct Near {
     double x, y, r2, centre_error;
     int piece, offset;
@@ -164,8 +166,9 @@ struct PieceTable {
   bool without_ellipses = false;
   bool discs_within = false;  ///< no disc touches an edge: a particle on a disc is in its cell
 
-  const WallGrid* grid = nullptr;  ///< of tables with many walls, else null
-  std::span<const Near> near;      ///< its lists
+  const WallGrid* grid = nullptr;   ///< of tables with many walls, else null
+  std::span<const Near> near;       ///< its lists
+  const ChainTree* tree = nullptr;  ///< of those among them with long loops, not on a lattice
   const std::vector<int>& all() const { return shared_->all; }  ///< numbers of all pieces
 
  private:
@@ -183,6 +186,7 @@ struct PieceTable {
     std::unordered_multimap<int, int> images;   ///< by wall: its pieces in other cells
     std::unique_ptr<const geometry::ExactBoundary> exact;
     std::unique_ptr<const WallGrid> grid;
+    std::unique_ptr<const ChainTree> tree;
   };
   class Preparation;
 
