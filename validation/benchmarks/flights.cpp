@@ -136,6 +136,7 @@ const Row rows[] = {
     {"regular 10000", "[table]\nshape = \"regular\"\nsides = 10000\nradius = 1\n", 0, nullptr,
      nullptr, 0.0, "regular 100"},
     {"ellipse", "[table]\nshape = \"ellipse\"\na = 1\nb = 0.75\n", 0, ellipse},
+    {"curve of 512 pieces", "[table]\nshape = \"polar\"\nradius = \"1 + 0.5*cos(phi)\"\n", 0},
     {"magnetic square",
      "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = 0.5075\n",
      1 / 0.5075, square, unit_square},
@@ -145,6 +146,9 @@ const Row rows[] = {
     {"magnetic ellipse",
      "[table]\nshape = \"ellipse\"\na = 1\nb = 0.75\n[field]\nlarmor_radius = 3\n", 1 / 3.0,
      ellipse},
+    {"magnetic curve of 512 pieces",
+     "[table]\nshape = \"polar\"\nradius = \"1 + 0.5*cos(phi)\"\n[field]\nlarmor_radius = 3\n",
+     1 / 3.0},
 };
 
 }  // namespace
