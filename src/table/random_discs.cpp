@@ -113,7 +113,7 @@ Shape random_discs(const TableSpec& spec) {
                      "radius < side/4");
   }
   // No packing of a torus is denser than the triangular lattice, pi/sqrt(12) = 0.9069 (Fejes Toth
-  // 1940): to draw on would find no room for all.
+  // 1940).
   if (const double discs = static_cast<double>(count), share = radius / side;
       3.1415 * discs * share * share > 0.907)
     throw InputError(count_number.place(),

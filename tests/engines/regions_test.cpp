@@ -13,6 +13,7 @@
 #include "carom/events/world.hpp"
 #include "carom/files/system_file.hpp"
 #include "carom/geometry/curve_frame.hpp"
+#include "carom/starts/start_measure.hpp"
 
 namespace carom {
 namespace {
@@ -30,7 +31,7 @@ std::string box(const std::string& obstacle, const std::string& region,
 }
 const std::string disc = "shape = \"circle\"\ncenter = [2.1, 1.4]\nradius = 0.7\nname = \"disc\"\n";
 const std::string of_disc = "wall = \"disc\"\n";
-/// A square that stands on a corner, and one whose left side is x = 2.
+/// A rectangle whose left side, x = 2, is its fourth.
 const std::string half =
     "shape = \"polygon\"\npoints = [[2, 0.25], [3.75, 0.25], [3.75, 2.75], [2, 2.75]]\nname = "
     "\"half\"\n";
@@ -292,6 +293,34 @@ TEST(Regions, LieAcrossTheCellsOfALattice) {
     for (const Hits::Row& row : seen.rows) inside += row.region_before == 0;
     EXPECT_GT(inside, 5000);
   }
+}
+
+/// Two discs that no cell holds whole: a start in the part of one that lies in the next cell is in
+/// its region, too.
+TEST(Regions, AreEnteredFromEveryCell) {
+  const System system = system_of(
+      "[table]\nshape = \"discs\"\ncenters = [[0, 0], [0.6, 0.5]]\nradius = 0.25\n[lattice]\n"
+      "vectors = [[1, 0], [0, 1]]\n[[table.region]]\nwall = \"disc_1\"\nB = 0.1\n"
+      "[[table.region]]\nwall = \"disc_2\"\nB = 0.1\n[initial]\nkind = \"uniform\"\n"
+      "[run]\nt_max = 2\ntrajectories = 60000\n");
+  const Hits seen = hits_of(system);
+  double inside = 0.0;
+  for (std::size_t t = 0, row = 0; t < seen.ends.size(); row = seen.ends[t++])
+    inside += row < seen.ends[t] && seen.rows[row].region_before >= 0;
+  const double share = 2.0 * pi * 0.25 * 0.25;
+  EXPECT_NEAR(inside / 60000.0, share, 4.0 * std::sqrt(share * (1.0 - share) / 60000.0));
+  EXPECT_EQ(lost(seen), 0);
+}
+
+/// The density of light is the square of the index; that of particles does not depend on a
+/// potential.
+TEST(Regions, OfAnIndexAreNotFilledUniformly) {
+  const std::string uniform = "[initial]\nkind = \"uniform\"\n";
+  const auto why = [&](const std::string& region) {
+    return why_not_stationary(system_of(box(disc, of_disc + region, uniform)));
+  };
+  EXPECT_NE(why("index = 1.5\n").find("index"), std::string::npos);
+  EXPECT_EQ(why("potential = 0.2\nB = 1\n"), "");
 }
 
 TEST(Regions, GiveOneDigestHoweverTheWorkIsShared) {
