@@ -242,8 +242,7 @@ export class Section {
       this.drawAxes();
     } else if (event.key === "Enter" && this.cursor) {
       this.click(this.cursor.s, this.cursor.v);
-    } else if (event.key === "+" || event.key === "=" || event.key === "-") {
-      view.zoom(event.key === "-" ? 0.8 : 1.25, view.width / 2, view.height / 2);
+    } else if (view.zoomBy(event.key)) {
       this.draw();
     } else if (event.key === "0") {
       this.fitAll();

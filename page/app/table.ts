@@ -445,8 +445,7 @@ export class Table {
         cursor.angle += event.key === "," ? 0.1 : -0.1;
       }
       this.drawTop();
-    } else if (event.key === "+" || event.key === "=" || event.key === "-") {
-      view.zoom(event.key === "-" ? 0.8 : 1.25, view.width / 2, view.height / 2);
+    } else if (view.zoomBy(event.key)) {
       this.draw();
     } else if (event.key === "0") {
       this.fitAll();

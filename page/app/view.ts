@@ -49,6 +49,13 @@ export class View {
     this.moved = true;
   }
 
+  /** Zooms about the middle by a key; false if it is none of those. */
+  zoomBy(key: string): boolean {
+    if (!["+", "=", "-"].includes(key)) return false;
+    this.zoom(key === "-" ? 0.8 : 1.25, this.width / 2, this.height / 2);
+    return true;
+  }
+
   pan(dx: number, dy: number): void {
     this.x -= dx / this.kx;
     this.y += dy / this.ky;
