@@ -13,9 +13,9 @@ namespace carom::geometry {
 
 namespace {
 
-/// The least |x'| over the part with these control points of x'. Halved until all of them lie
+/// The least |T| over the part with these control points of T. Halved until all of them lie
 /// within 60 degrees of one direction; a curve without cusp comes to that.
-double least_speed(std::array<Vector, Bezier::most> d, std::size_t degree, int depth) {
+double least_tangent(std::array<Vector, Bezier::most> d, std::size_t degree, int depth) {
   Vector sum;
   double largest = 0.0;
   for (std::size_t i = 0; i <= degree; ++i) {
@@ -33,14 +33,11 @@ double least_speed(std::array<Vector, Bezier::most> d, std::size_t degree, int d
     for (std::size_t k = 0; k + level <= degree; ++k) d[k] = 0.5 * (d[k] + d[k + 1]);
     left[level] = d[0];
   }
-  return std::fmin(least_speed(left, degree, depth + 1), least_speed(d, degree, depth + 1));
+  return std::fmin(least_tangent(left, degree, depth + 1), least_tangent(d, degree, depth + 1));
 }
 
 double length_of_part(const BezierForm& f, double from, double to) {
-  return gauss_legendre(from, to, [&](double u) {
-    const Vector d = f.derivative(u);
-    return std::sqrt(dot(d, d));
-  });
+  return gauss_legendre(from, to, [&](double u) { return f.rate(u); });
 }
 
 }  // namespace
@@ -58,18 +55,7 @@ BezierForm::BezierForm(const Bezier& curve) : degree(static_cast<std::size_t>(cu
     reach += 1.01 * size;
     speed += 1.01 * static_cast<double>(k) * size;
   }
-  std::array<Vector, Bezier::most> d{};
-  for (std::size_t i = 0; i < degree; ++i)
-    d[i] = static_cast<double>(degree) * (control[i + 1] - control[i]);
-  // Control points of x' are at most `speed` in each coordinate. 40 halvings take at most 4
-  // averages each, every one rounded by 2^-53 of that: 160 sqrt(2) 2^-53 < 2^-45 in all, and as
-  // much again is for the rest. A tangent errs by 12 * 2^-53 speed in each coordinate, so that from
-  // 2^-32 on the direction of a normal is known to 1.42 * 12 * 2^-21 = 2^-16.9:
-  // docs/physics/exactness.md, Bézier curves.
-  least_speed = geometry::least_speed(d, degree - 1, 0) - 0x1p-44 * speed;
-  if (!(least_speed > 0x1p-32 * speed))
-    throw std::invalid_argument(
-        "the Bézier curve has a cusp, a control point on its end, or comes too near to that");
+  prepare_tangent(exact_curve);
   for (int parts = 1;; parts *= 2) {
     const double before = lengths.empty() ? 0.0 : lengths.back();
     lengths.assign(1, 0.0);
@@ -81,13 +67,59 @@ BezierForm::BezierForm(const Bezier& curve) : degree(static_cast<std::size_t>(cu
   }
 }
 
+void BezierForm::prepare_tangent(const ExactCurve& exact_curve) {
+  const std::size_t n = degree;
+  rests_at_start = control[0] == control[1];
+  rests_at_end = control[n - 1] == control[n];
+  std::array<Vector, Bezier::most> d{};  // control points of T
+  for (std::size_t i = 0; i < n; ++i) d[i] = static_cast<double>(n) * (control[i + 1] - control[i]);
+  tangent_degree = n - 1;
+  if (!rests_at_start && !rests_at_end) {
+    for (std::size_t k = 0; k < n; ++k)
+      tangent_power[k] = static_cast<double>(k + 1) * power[k + 1];
+    tangent_size = speed;
+  } else {
+    std::vector<DyadicVector> t;
+    for (std::size_t k = 1; k <= n; ++k)
+      t.push_back(Dyadic(static_cast<int>(k)) * exact_curve.power[k]);
+    // u B(i, m - 1) = (i + 1)/m B(i + 1, m), (1 - u) B(i, m - 1) = (m - i)/m B(i, m).
+    if (rests_at_start) {
+      const double m = static_cast<double>(tangent_degree--);
+      t.erase(t.begin());
+      for (std::size_t i = 0; i + 1 < n; ++i) d[i] = (m / static_cast<double>(i + 1)) * d[i + 1];
+    }
+    if (rests_at_end && tangent_degree > 0) {
+      const double m = static_cast<double>(tangent_degree--);
+      for (std::size_t k = 1; k < t.size(); ++k) t[k] = t[k] + t[k - 1];
+      t.pop_back();
+      for (std::size_t i = 0; i < t.size(); ++i) d[i] = (m / (m - static_cast<double>(i))) * d[i];
+    }
+    for (std::size_t k = 0; k < t.size(); ++k) {
+      tangent_power[k] = {nearest(t[k].x.rational()), nearest(t[k].y.rational())};
+      tangent_size +=
+          1.01 * std::fmax(std::fabs(tangent_power[k].x), std::fabs(tangent_power[k].y));
+    }
+  }
+  // Control points of T are at most `tangent_size` in each coordinate. 40 halvings take at most 4
+  // averages each, every one rounded by 2^-53 of that: 160 sqrt(2) 2^-53 < 2^-45 in all, and as
+  // much again is for the rest. T errs by 12 * 2^-53 tangent_size in each coordinate, so that from
+  // 2^-32 on the direction of a normal is known to 1.42 * 12 * 2^-21 = 2^-16.9:
+  // docs/physics/exactness.md, Bézier curves.
+  least_tangent = geometry::least_tangent(d, tangent_degree, 0) - 0x1p-44 * tangent_size;
+  if (!(least_tangent > 0x1p-32 * tangent_size))
+    throw std::invalid_argument("the Bézier curve has a cusp, or comes too near to one");
+}
+
 double BezierForm::curvature(double u) const {
-  Vector second;
-  for (std::size_t k = degree; k > 1; --k)
-    second = static_cast<double>(k * (k - 1)) * power[k] + u * second;
-  const Vector first = derivative(u);
-  const double square = dot(first, first);
-  return cross(first, second) / (square * std::sqrt(square));
+  const Vector t = tangent(u);
+  Vector slope;
+  for (std::size_t k = tangent_degree; k > 0; --k)
+    slope = static_cast<double>(k) * tangent_power[k] + u * slope;
+  const double square = dot(t, t), bend = cross(t, slope) / (square * std::sqrt(square));
+  // x' x x'' = w^2 T x T' with w = u^a (1 - u)^b.
+  if (rests_at_start || rests_at_end)
+    return bend / ((rests_at_start ? u : 1.0) * (rests_at_end ? 1.0 - u : 1.0));
+  return bend;
 }
 
 double BezierForm::arc_length(double u) const {

@@ -125,7 +125,7 @@ struct Frames {
     f.bezier = std::make_shared<const BezierForm>(c);
     f.origin = c.from;
     f.a = c.to - c.from;
-    f.major = f.minor = f.bezier->least_speed;
+    f.major = f.minor = f.bezier->least_tangent;
     f.end = 1.0;
     f.last = std::nextafter(1.0, 0.0);
     f.middle = f.bezier->point(0.5);

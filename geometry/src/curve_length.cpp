@@ -93,8 +93,8 @@ Place place(const CurveFrame& f, double c, double s) {
 
 /// Length per unit of u.
 double speed(const CurveFrame& f, double u) {
+  if (f.bezier) return f.bezier->rate(u);
   const Vector t = direction_at(f, u);
-  if (f.bezier) return std::sqrt(dot(t, t));
   const double w = u - detail::quarter_number(u);
   return std::sqrt(dot(t, t)) * (2.0 / (1.0 + w * w));
 }

@@ -110,6 +110,11 @@ AroundEnd around_end(const FlightAtCurve& l, bool at_end, const DyadicVector& ve
   while (order < g.size() && g[order].sign() == 0) ++order;
   if (order == g.size()) return {0, 0, true};
   const int after = g[order].sign(), before = order % 2 == 0 ? after : -after;
+  // Where the curve rests it begins with u^2, or ends with (u - 1)^2, along its tangent.
+  const DyadicVector& first = l.curve.power[1];
+  const bool rests = at_end ? l.curve.rests_at_end() : first.x.sign() == 0 && first.y.sign() == 0;
+  if (rests && order == 2)
+    return at_end ? AroundEnd{-after, after, false} : AroundEnd{after, -after, false};
   if (order == 1) return {after, before, false};
   // Side by side: where the curve is on the flight's left, the flight is on its right if they run
   // the same way, else on its left, and comes from where the curve goes.

@@ -117,12 +117,23 @@ ExactPoint ExactCurve::point(double u) const {
   return {weight * centre.x + e.x, weight * centre.y + e.y, weight};
 }
 
+bool ExactCurve::rests_at_end() const {
+  DyadicVector sum;
+  for (std::size_t k = 1; k < power.size(); ++k) sum = sum + Dyadic(static_cast<int>(k)) * power[k];
+  return sum.x.sign() == 0 && sum.y.sign() == 0;
+}
+
 DyadicVector ExactCurve::direction_at(double u) const {
   if (!bezier()) return tangent(u < 0.0 ? end_point() : point(u));
   const Dyadic t(u < 0.0 ? 1.0 : u);
-  DyadicVector x;
-  for (std::size_t k = power.size(); k-- > 1;) x = Dyadic(static_cast<int>(k)) * power[k] + t * x;
-  return x;
+  DyadicVector x, second;  // the derivatives
+  for (std::size_t k = power.size(); k-- > 1;) {
+    second = x + t * second;
+    x = Dyadic(static_cast<int>(k)) * power[k] + t * x;
+  }
+  if (x.x.sign() != 0 || x.y.sign() != 0) return x;
+  // The curve rests at this end: it runs along the second derivative, and against it, at its end.
+  return u < 0.0 ? -second : second;
 }
 
 DyadicVector ExactCurve::tangent(const ExactPoint& at) const {

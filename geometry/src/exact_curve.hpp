@@ -44,6 +44,8 @@ struct ExactCurve {
   ExactPoint point(double u) const;
   ExactPoint end_point() const { return {to.x, to.y, Dyadic(1)}; }
   bool bezier() const { return !power.empty(); }
+  /// Does the derivative of a Bézier curve vanish at its end?
+  bool rests_at_end() const;
   /// A tangent vector (any length) in the direction of travel: at a homogeneous point of a line or
   /// conic, at a parameter (u < 0: at the end) of any curve.
   DyadicVector tangent(const ExactPoint& at) const;

@@ -98,23 +98,39 @@ bool apart(const Part& a, const Part& b) {
          separated(a, b, b.chord()) || separated(a, b, {1.0, 0.0}) || separated(a, b, {0.0, 1.0});
 }
 
-/// The first ends where the second begins: is all else of them on two sides of a line through that
-/// point?
-bool apart_but_at_joint(const Part& first, const Part& second) {
-  const auto unit = [](Vector v) { return (1.0 / std::sqrt(dot(v, v))) * v; };
-  const std::size_t n = first.rounded.size();
-  const Vector comes = unit(first.rounded[n - 1] - first.rounded[n - 2]),
-               goes = unit(second.rounded[1] - second.rounded[0]);
+/// q - p, times a positive factor.
+DyadicVector way(const ExactPoint& p, const ExactPoint& q) {
+  return {q.x * p.w - p.x * q.w, q.y * p.w - p.y * q.w};
+}
+bool is_zero(const DyadicVector& v) { return v.x.sign() == 0 && v.y.sign() == 0; }
+
+/// The first ends where the second begins: does a line through that point along d have all else of
+/// one on its left, all else of the other on its right? Control points may lie on the line, their
+/// far ends excepted: these have a share in every point but the joint.
+bool on_two_sides(const Part& first, const Part& second, const DyadicVector& d) {
   const ExactPoint& joint = second.control[0];
-  const DyadicVector d = exact(left(comes + goes));
-  const auto place = [&](const ExactPoint& p) {  // > 0: behind the joint
-    return cross(d, DyadicVector{p.x * joint.w - joint.x * p.w, p.y * joint.w - joint.y * p.w})
-        .sign();
-  };
-  return std::all_of(first.control.begin(), first.control.end() - 1,
-                     [&](const ExactPoint& p) { return place(p) > 0; }) &&
-         std::all_of(second.control.begin() + 1, second.control.end(),
-                     [&](const ExactPoint& p) { return place(p) < 0; });
+  const auto side = [&](const ExactPoint& p) { return cross(d, way(joint, p)).sign(); };
+  const int one = side(first.control.front()), other = side(second.control.back());
+  return one * other < 0 &&
+         std::all_of(first.control.begin(), first.control.end(),
+                     [&](const ExactPoint& p) { return side(p) * one >= 0; }) &&
+         std::all_of(second.control.begin(), second.control.end(),
+                     [&](const ExactPoint& p) { return side(p) * other >= 0; });
+}
+bool apart_but_at_joint(const Part& first, const Part& second) {
+  // The direction at an end is that to the next control point elsewhere.
+  const std::size_t n = first.control.size();
+  std::size_t before = n - 1, after = 1;
+  while (before > 1 && is_zero(way(first.control[before - 1], first.control[n - 1]))) --before;
+  while (after + 1 < second.control.size() &&
+         is_zero(way(second.control[0], second.control[after])))
+    ++after;
+  const auto unit = [](Vector v) { return (1.0 / std::sqrt(dot(v, v))) * v; };
+  const Vector comes = unit(first.rounded[n - 1] - first.rounded[before - 1]),
+               goes = unit(second.rounded[after] - second.rounded[0]);
+  // Across the way through a joint; along it in a cusp.
+  return on_two_sides(first, second, exact(left(comes + goes))) ||
+         on_two_sides(first, second, way(second.control[0], second.control[after]));
 }
 
 class Search {
@@ -145,12 +161,13 @@ class Search {
  private:
   static bool runs_along_chord(const Part& a) {
     const DyadicVector chord = exact(a.chord());
+    bool runs = false;  // somewhere, so everywhere between the ends
     for (std::size_t i = 0; i + 1 < a.control.size(); ++i) {
-      const ExactPoint &p = a.control[i], &q = a.control[i + 1];
-      if (dot(chord, DyadicVector{q.x * p.w - p.x * q.w, q.y * p.w - p.y * q.w}).sign() <= 0)
-        return false;
+      const int sign = dot(chord, way(a.control[i], a.control[i + 1])).sign();
+      if (sign < 0) return false;
+      runs = runs || sign > 0;
     }
-    return true;
+    return runs;
   }
   int pairs_ = 0;
 };

@@ -108,10 +108,11 @@ void PreparedCurve::prepare_bezier() {
   constexpr double u = unit_roundoff;
   const double degree = static_cast<double>(f.degree);
   point_error = u * (1.1 * extent + (2.0 * degree + 1.1) * f.reach);
-  // x' errs by (2 degree + 2) u speed in each coordinate, its product with a velocity by 2u.
-  normal_bound = (2.0 * degree + 4.1) * u * f.speed;
-  normal_error = 1.42 * normal_bound / f.least_speed;
-  parameter_stretch = 1.42 / f.least_speed;
+  // T errs by (2 degree + 2) u tangent_size in each coordinate, its product with a velocity by 2u.
+  normal_bound = (2.0 * degree + 4.1) * u * f.tangent_size;
+  normal_error = 1.42 * normal_bound / f.least_tangent;
+  // |x'| has no bound from below where the curve rests.
+  parameter_stretch = f.rests_at_start || f.rests_at_end ? HUGE_VAL : 1.42 / f.least_tangent;
 }
 
 void PreparedCurve::make_thin() {

@@ -62,6 +62,7 @@ from .system import (
     ellipse,
     flower,
     lemon,
+    cardioid,
     limacon,
     load,
     lorentz,

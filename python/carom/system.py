@@ -433,6 +433,12 @@ def discs(centers, radius=None, radii=None) -> System:
 
 
 @_of_keywords
+def cardioid(radius=1) -> System:
+    """The cardioid r = radius·(1 + cos φ) (length); its cusp is at the origin."""
+    return _shape("cardioid", radius=radius)
+
+
+@_of_keywords
 def limacon(radius=1, epsilon=0.5) -> System:
     """Pascal's limaçon r = radius·(1 + epsilon·cos φ) (length)."""
     return _shape("limacon", radius=radius, epsilon=epsilon)

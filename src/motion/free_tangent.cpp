@@ -50,9 +50,9 @@ void FreeTangent::begin(const State& start, const Particle& particle, double uni
 }
 
 namespace {
-/// transverse_kick with the inward normal |x'| n of a Bézier curve.
+/// transverse_kick with the inward normal |T| n of a Bézier curve.
 double kick_of(const geometry::BezierForm& curve, const State& state, double square, double omega) {
-  const Vector g = left(curve.derivative(state.u));
+  const Vector g = left(curve.tangent(state.u));
   const double bend = -curve.curvature(state.u) * std::sqrt(dot(g, g));
   return 2.0 * (square * bend - omega * dot(right(g), state.velocity)) / dot(g, state.velocity);
 }

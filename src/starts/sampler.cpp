@@ -326,7 +326,7 @@ State Sampler::cosine_law(RandomStream& random, double speed) const {
       // Uniform in arc length: accept in proportion to |dr/du|.
       const double w = u - std::floor(u);
       const Vector tangent = geometry::direction_at(frame, u);
-      const double rate = frame.bezier ? std::sqrt(dot(tangent, tangent))
+      const double rate = frame.bezier ? frame.bezier->rate(u)
                                        : 2.0 * std::sqrt(dot(tangent, tangent)) / (1.0 + w * w);
       if (random.uniform() * source->bound >= rate) continue;
     }

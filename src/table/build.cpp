@@ -38,6 +38,7 @@ const std::pair<const char*, Builder> builders[] = {
     {"lorentz", shapes::lorentz},
     {"discs", shapes::discs},
     {"random-discs", shapes::random_discs},
+    {"cardioid", shapes::cardioid},
     {"limacon", shapes::limacon},
     {"flower", shapes::flower},
     {"superellipse", shapes::superellipse},

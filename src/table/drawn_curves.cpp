@@ -121,9 +121,11 @@ class Drawing {
     }
     Shape shape;
     const std::vector<std::string> names = numbered("curve", pieces_.size());
+    // Where both derivatives of the first order vanish, at its start, the curve turns back.
+    const bool cusp = jets[0].first == Vector{};
     Chain chain;
     for (std::size_t k = 0; k < pieces_.size(); ++k)
-      chain.push_back({names[k], pieces_[k], smooth});
+      chain.push_back({names[k], pieces_[k], k == 0 && cusp ? 0 : smooth});
     shape.loops.push_back(std::move(chain));
     shape.curve_distance = distance_;
     return shape;
@@ -188,7 +190,7 @@ class Drawing {
       try {
         geometry::frame_of(pieces_.back());
       } catch (const std::invalid_argument&) {
-        refuse("the curve has a cusp", a.at);
+        refuse("the curve has a cusp, which only its start can be,", a.at);
       }
       distance_ = std::max(distance_, off);
       return;
@@ -307,6 +309,12 @@ std::uint64_t whole(const TableSpec& spec, const char* key, std::uint64_t low, s
                        std::to_string(low) + " to " + std::to_string(high));
 }
 }  // namespace
+
+Shape cardioid(const TableSpec& spec) {
+  // From cusp to cusp.
+  return parametric_of(spec, "R*(cos(t) - 1)*cos(t)", "R*(cos(t) - 1)*sin(t)",
+                       {{"R", size(spec, "radius")}});
+}
 
 Shape limacon(const TableSpec& spec) {
   return polar_of(spec, "R*(1 + eps*cos(phi))",

@@ -97,6 +97,9 @@ MadeTable mushroom(const ExactNumber& cap_radius, const ExactNumber& stem_width,
 MadeTable lemon(const ExactNumber& radius, const ExactNumber& separation) {
   return MadeTable(shaped("lemon", {{"radius", radius}, {"separation", separation}}));
 }
+MadeTable cardioid(const ExactNumber& radius) {
+  return MadeTable(shaped("cardioid", {{"radius", radius}}));
+}
 MadeTable limacon(const ExactNumber& radius, const ExactNumber& epsilon) {
   return MadeTable(shaped("limacon", {{"radius", radius}, {"epsilon", epsilon}}));
 }

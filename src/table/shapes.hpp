@@ -112,6 +112,7 @@ Shape polar_curve(const TableSpec&);
 /// A closed curve x(t), y(t), as Bézier curves.
 Shape parametric_curve(const TableSpec&);
 /// Curves with a name, by their formulas.
+Shape cardioid(const TableSpec&);
 Shape limacon(const TableSpec&);
 Shape flower(const TableSpec&);
 Shape superellipse(const TableSpec&);

@@ -69,7 +69,8 @@ Table wavy_box() {
 
 std::vector<std::pair<const char*, Table>> tables() {
   std::vector<std::pair<const char*, Table>> all;
-  all.emplace_back("cardioid-like", polar("1 + 0.5*cos(phi)"));
+  all.emplace_back("cardioid", build_table(*carom::cardioid(1).spec));
+  all.emplace_back("limacon", polar("1 + 0.5*cos(phi)"));
   all.emplace_back("Robnik's", parametric("cos(t) + 0.3*cos(2*t)", "sin(t) + 0.3*sin(2*t)"));
   all.emplace_back("flower", polar("1 + 0.2*sin(5*phi)"));
   all.emplace_back("superellipse", polar("(cos(phi)^4 + sin(phi)^4)^(-1/4)"));
@@ -181,6 +182,51 @@ TEST(Beziers, StagesGiveTheSameBits) {
   }
 }
 
+TEST(Beziers, FlightsBesideACuspAreDecided) {
+  const Table table = build_table(*carom::cardioid(1).spec);
+  const int last = static_cast<int>(table.walls.size()) - 1;
+  HitFinder filter(table), exact(table, {1e300});
+  int hits[2] = {0, 0};
+  for (int i = 0; i < 60; ++i) {
+    const double off = std::ldexp(i % 2 == 0 ? 1.0 : -1.0, -20 - i / 2);
+    Flight f;
+    f.omega = i % 3 == 0 ? 0.0 : 0.25;
+    DecisionCounts counts;
+    if (i % 10 < 5) {  // towards it, from within
+      const Vector from{1.5, 0.125 * (i % 10)};
+      f.velocity = Vector{0.0, off} - from + 0.5 * f.omega * left(Vector{0.0, off} - from);
+      f.square_speed = dot(f.velocity, f.velocity);
+      f.start = from;
+      filter.pieces().begin(f);
+    } else {  // from the wall beside it
+      const int wall = i % 2 == 0 ? 0 : last;
+      const double away = std::fabs(off) * 0.5,
+                   u = std::clamp(wall == 0 ? away : 1.0 - away, 0x1p-53, 1.0 - 0x1p-53);
+      const Vector n = geometry::normal_at(table.wall(wall).curve, u);
+      f.velocity = n + (0.5 * (i % 10 - 7)) * left(n);
+      f.square_speed = dot(f.velocity, f.velocity);
+      filter.pieces().begin_on_wall(f, wall, u, geometry::point_at(table.wall(wall).curve, u),
+                                    f.velocity);
+    }
+    const Ahead first = filter.next(f, counts), again = exact.next(f, counts);
+    // What is aimed by less than rounding beside it flies into the tip.
+    EXPECT_EQ(first.kind, again.kind) << i;
+    EXPECT_EQ(first.piece, again.piece) << i;
+    EXPECT_EQ(first.kappa, again.kappa) << i;
+    EXPECT_EQ(first.u, again.u) << i;
+    if (first.piece == 0) ++hits[0];
+    if (first.piece == last) ++hits[1];
+  }
+  EXPECT_GT(hits[0], 0);
+  EXPECT_GT(hits[1], 0);
+  // Into the tip itself, and from it only away.
+  World world(table);
+  Recorder seen;
+  world.add(particle(), start({1.0, 0.0}, {-1.0, 0.0}));
+  world.run_until(3.0, seen);
+  EXPECT_EQ(world.fate(0), Fate::singular) << world.report(0);
+}
+
 TEST(Beziers, ReversedOrbitsReturn) {
   for (const auto& [name, table] : tables()) {
     for (const double omega : {0.0, 0.7}) {
@@ -288,6 +334,10 @@ TEST(Beziers, CurvesThatBoundNoRegionAreNamed) {
   mentions(fault_of(path_spec(at(0, 0),
                               {bezier({at(1, 0), at(2, 1)}), bezier({at(1.5, 0.5), at(0, 0)})})),
            "cusp");
+  // On two sides of the tangent.
+  EXPECT_EQ(fault_of(path_spec(at(0, 0), {line(at(1, -1)), bezier({at(1.5, 0.5), at(2, 1)}),
+                                          bezier({at(1, 0), at(0, 0)})})),
+            "");
   EXPECT_EQ(fault_of(path_spec(at(0, 0), {bezier({at(4, 4), at(-4, 4), at(0, 0)})})), "");
 }
 

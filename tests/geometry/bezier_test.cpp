@@ -31,6 +31,9 @@ Bezier random_curve(Dice& dice, double size) {
     for (int i = 1; i < b.degree; ++i)
       b.inner[static_cast<std::size_t>(i - 1)] =
           dice.whole(0, 3) == 0 ? b.from + 0.3 * dice.point(size) : dice.point(size);
+    // Some rest at an end.
+    if (dice.whole(0, 4) == 0) b.inner[0] = b.from;
+    if (dice.whole(0, 4) == 0) b.inner[static_cast<std::size_t>(b.degree - 2)] = b.to;
     try {
       frame_of(b);
       return b;
@@ -213,6 +216,29 @@ TEST(BezierFlights, FilterAndExactStageAgree) {
       EXPECT_GT(t.exits, t.cases / 10);
       EXPECT_GT(t.decided, t.cases * 3 / 4);  // of adversarial flights
     }
+}
+
+TEST(BezierFlights, CurvesThatRestAtAnEndAreKnownThere) {
+  // x = u^2 (3, 0) + u^3 (-1, 1) on one side, the same to its end on the other.
+  const Bezier curve{{0, 0}, {2, 1}, {{{0, 0}, {1, 0}}}, 3};
+  const CurveFrame from = frame_of(curve), to = frame_of(std::get<Bezier>(reversed(curve)));
+  EXPECT_TRUE(from.bezier->rests_at_start && to.bezier->rests_at_end);
+  for (const double u : {1.0, 0.5, 0x1p-10, 0x1p-40, 0x1p-52}) {
+    // The slope u/(2 - u); y''x' - x''y' = 18 u^2, |x'| = 3 u |(2 - u, u)|.
+    const Vector t{2.0 - u, u};
+    const double size = std::sqrt(dot(t, t));
+    const Vector unit = (1.0 / size) * t;
+    EXPECT_LT(std::fabs(cross(unit, tangent_at(from, u))), 4e-16) << u;
+    EXPECT_LT(std::fabs(cross(unit, tangent_at(to, 1.0 - u))), 4e-16) << u;
+    EXPECT_GT(dot(unit, tangent_at(from, u)), 0.9);
+    EXPECT_LT(dot(unit, tangent_at(to, 1.0 - u)), -0.9);
+    const double curvature = 2.0 / (3.0 * u * size * size * size);
+    EXPECT_NEAR(curvature_at(from, u), curvature, 1e-14 * curvature) << u;
+    EXPECT_NEAR(curvature_at(to, 1.0 - u), -curvature, 1e-14 * curvature) << u;
+  }
+  EXPECT_NEAR(parameter_at_length(from, arc_length_at(from, 0x1p-20)), 0x1p-20, 0x1p-50);
+  // Both inner points on one end: no direction is left there.
+  EXPECT_THROW(frame_of(Bezier{{0, 0}, {2, 1}, {{{0, 0}, {0, 0}}}, 3}), std::invalid_argument);
 }
 
 TEST(BezierFlights, BothAgreeWithBisectionInFiveHundredDigits) {

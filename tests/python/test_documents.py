@@ -124,7 +124,7 @@ def test_shapes_and_units_of_arrays_are_said():
 def test_lengths_of_shapes_are_called_lengths():
     shapes = (
         "rectangle", "polygon", "triangle", "regular", "circle", "ellipse", "annulus", "stadium",
-        "mushroom", "lemon", "sinai", "lorentz", "discs", "limacon", "flower", "superellipse",
+        "mushroom", "lemon", "sinai", "lorentz", "discs", "cardioid", "limacon", "flower", "superellipse",
         "robnik", "egg", "polar", "parametric", "spline",
     )  # fmt: skip
     for name in shapes:

@@ -38,6 +38,7 @@ def test_a_table_is_built_with_holes_and_obstacles():
         lambda: carom.mushroom(1, 0.5, 1),
         lambda: carom.lemon(1, 1),
         lambda: carom.discs([(0, 0), (6, 0)], radius=1),
+        carom.cardioid,
         carom.limacon,
         carom.flower,
         carom.superellipse,

@@ -31,6 +31,7 @@ TEST(Make, EveryShape) {
               build_table(shape("mushroom",
                                 {{"cap_radius", "2"}, {"stem_width", "1"}, {"stem_height", "3"}})));
   expect_same(lemon(2, 1), build_table(shape("lemon", {{"radius", "2"}, {"separation", "1"}})));
+  expect_same(cardioid(2), build_table(shape("cardioid", {{"radius", "2"}})));
   expect_same(limacon(2, 0.5),
               build_table(shape("limacon", {{"radius", "2"}, {"epsilon", "1/2"}})));
   expect_same(flower(2, 0.1, 3),

@@ -341,6 +341,7 @@ TEST(Shapes, CurvesWithANameHaveTheirAreasAndLengths) {
   expect(shape("robnik", {{"radius", "3"}, {"lambda", "1/4"}}), 9 * pi * (1 + 2 * k * k),
          3 * length);
   expect(shape("limacon", {{"radius", "3"}, {"epsilon", "1/2"}}), 9 * pi * (1 + 0.125), 3 * length);
+  expect(shape("cardioid", {{"radius", "2"}}), 6 * pi, 16);
   expect(shape("superellipse", {{"a", "2"}, {"b", "1"}, {"exponent", "2"}}), 2 * pi,
          8 * std::comp_ellint_2(std::sqrt(3.0) / 2));
   expect(shape("egg", {{"a", "2"}, {"b", "1"}, {"epsilon", "0"}}), 2 * pi,

@@ -45,6 +45,8 @@ MadeTable stadium(const ExactNumber& half_length, const ExactNumber& radius);
 MadeTable mushroom(const ExactNumber& cap_radius, const ExactNumber& stem_width,
                    const ExactNumber& stem_height);
 MadeTable lemon(const ExactNumber& radius, const ExactNumber& separation);
+/// r = radius (1 + cos phi).
+MadeTable cardioid(const ExactNumber& radius);
 /// r = radius (1 + epsilon cos phi), and with cos(petals phi).
 MadeTable limacon(const ExactNumber& radius, const ExactNumber& epsilon);
 MadeTable flower(const ExactNumber& radius, const ExactNumber& epsilon, int petals);

@@ -12,7 +12,8 @@ const std::vector<KeyDescription>& key_table() {
       {"table", "", "shape", "string", "",
        "rectangle, polygon, triangle, regular, circle, ellipse, annulus, stadium, mushroom, lemon, "
        "sinai, "
-       "lorentz, discs, random-discs, limacon, flower, superellipse, robnik, egg, path, polar, "
+       "lorentz, discs, random-discs, cardioid, limacon, flower, superellipse, robnik, egg, path, "
+       "polar, "
        "parametric, spline or plane (no walls)"},
       {"table", "rectangle", "width", "number", "", "extent along x, from 0"},
       {"table", "rectangle", "height", "number", "", "extent along y, from 0"},
@@ -20,7 +21,8 @@ const std::vector<KeyDescription>& key_table() {
        "the corners, either way round"},
       {"table", "regular", "sides", "whole number", "", "number of sides"},
       {"table",
-       "regular|circle|stadium|lemon|sinai|lorentz|discs|random-discs|limacon|flower|robnik",
+       "regular|circle|stadium|lemon|sinai|lorentz|discs|random-discs|cardioid|limacon|flower|"
+       "robnik",
        "radius", "number", "",
        "of the circle, the caps, the arcs or the discs; of the circumscribed circle for regular; "
        "of "

@@ -10,10 +10,10 @@ namespace {
 // The order is that of the guide.
 const std::vector<std::string>& shapes() {
   static const std::vector<std::string> names{
-      "rectangle", "polygon",      "triangle", "regular",    "circle",       "ellipse",
-      "annulus",   "stadium",      "mushroom", "lemon",      "sinai",        "lorentz",
-      "discs",     "random-discs", "limacon",  "flower",     "superellipse", "robnik",
-      "egg",       "path",         "polar",    "parametric", "spline",       "plane"};
+      "rectangle", "polygon",    "triangle", "regular",      "circle",  "ellipse", "annulus",
+      "stadium",   "mushroom",   "lemon",    "sinai",        "lorentz", "discs",   "random-discs",
+      "cardioid",  "limacon",    "flower",   "superellipse", "robnik",  "egg",     "path",
+      "polar",     "parametric", "spline",   "plane"};
   return names;
 }
 

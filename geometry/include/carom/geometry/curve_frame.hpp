@@ -16,7 +16,7 @@ struct CurveFrame : Frame<double> {
   bool circular = false;
   double turn = 0.0;   ///< +1 counter-clockwise, -1 clockwise, 0 segment
   Vector middle;       ///< centre, rounded
-  double major = 0.0;  ///< semi-axes (radius of a circle, length of a segment, least |dx/du|)
+  double major = 0.0;  ///< semi-axes (radius of a circle, length of a segment, least |T(u)|)
   double minor = 0.0;
   /// Cosine and sine of the eccentric angle of the start, counted in the direction of travel from
   /// an end of the minor axis.
@@ -41,7 +41,7 @@ inline double parameter_of(const CurveFrame& f, Vector point) {
 /// Tangent of any length in the direction of travel.
 inline Vector direction_at(const CurveFrame& f, double u) {
   return f.kind == CurveFrame::Kind::segment ? f.a
-         : f.bezier                          ? f.bezier->derivative(u)
+         : f.bezier                          ? f.bezier->tangent(u)
                                              : conic_direction(f, u);
 }
 Vector tangent_at(const CurveFrame&, double u);
