@@ -63,6 +63,7 @@ from .system import (
     flower,
     lemon,
     cardioid,
+    implicit,
     limacon,
     load,
     lorentz,

@@ -482,6 +482,13 @@ def parametric(x, y, start=None, end=None) -> System:
 
 
 @_of_keywords
+def implicit(equation, inside=(0, 0)) -> System:
+    """The closed curve on which a formula of x and y vanishes (lengths), "x^4 + y^4 - 1": of all its curves the
+    first on the right of the point `inside`, (2,)."""
+    return _shape("implicit", equation=equation, inside=inside)
+
+
+@_of_keywords
 def spline(points) -> System:
     """The smooth wall through the points, (points, 2), lengths: a periodic cubic spline."""
     return _shape("spline", points=points)

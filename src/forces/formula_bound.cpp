@@ -185,15 +185,13 @@ class Evaluation {
         return either(a, chain(-a.v, Box(-1.0), a));
       case Operation::atan2: {
         const Box over = inverse(square(a.v) + square(b.v));
-        constexpr double pi = 3.141592653589793;
         // Beyond the real plane the angle is that of the real point, displaced by the path to it.
-        Box value({-pi, pi}, {-pi, pi});
         const Box slope_a = b.v * over, slope_b = -(a.v * over);
         const double away = complex_box::size(slope_a) * complex_box::largest(a.v.im) +
                             complex_box::size(slope_b) * complex_box::largest(b.v.im);
-        value.re = {-pi - away, pi + away};
-        value.im = {-away, away};
-        return chain(value, slope_a, a, slope_b, b);
+        const Range off{-away, away};
+        return chain(Box(complex_box::argument({b.v.re, a.v.re}) + off, off), slope_a, a, slope_b,
+                     b);
       }
       case Operation::least:
       case Operation::greatest: {
@@ -239,6 +237,15 @@ double largest_near(const TypedExpression& f, double low, double high, double rh
   Evaluation<1> evaluation(f.formula());
   const double size = complex_box::size(evaluation.run({Box({low, high}, {-rho, rho})}).v);
   return evaluation.kinked ? complex_box::unbounded : bounded(size);
+}
+
+ValuesOverBox values_over(const TypedExpression& f, const geometry::Box& box) {
+  Evaluation<2> evaluation(f.formula());
+  const Enclosed<2> all =
+      evaluation.run({Box({box.low.x, box.high.x}, {}), Box({box.low.y, box.high.y}, {})});
+  if (evaluation.kinked)
+    return {complex_box::everything, complex_box::everything, complex_box::everything};
+  return {all.v.re, all.d[0].re, all.d[1].re};
 }
 
 ForceBound bound_of(const TypedExpression& w, double distance, double rho) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "carom/forces/typed_expression.hpp"
+#include "carom/geometry/curve.hpp"
+#include "forces/complex_box.hpp"
 #include "forces/force_bound.hpp"
 
 namespace carom::forces {
@@ -15,5 +17,11 @@ ForceBound bound_of(const TypedExpression&, double distance, double rho);
 /// The largest size of a formula of one variable within `rho` of the real numbers from `low` to
 /// `high`, in both directions of the complex plane; infinite where it is not analytic there.
 double largest_near(const TypedExpression&, double low, double high, double rho);
+/// What a formula of x and y and its slopes can be over a box; without bounds where it is not
+/// smooth.
+struct ValuesOverBox {
+  complex_box::Range value, slope_x, slope_y;
+};
+ValuesOverBox values_over(const TypedExpression&, const geometry::Box&);
 
 }  // namespace carom::forces

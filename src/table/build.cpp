@@ -47,6 +47,7 @@ const std::pair<const char*, Builder> builders[] = {
     {"path", shapes::path},
     {"polar", shapes::polar_curve},
     {"parametric", shapes::parametric_curve},
+    {"implicit", shapes::implicit_curve},
     {"spline", shapes::spline_curve},
     {"plane", shapes::plane},
 };

@@ -12,6 +12,7 @@
 #include "carom/geometry/curve_frame.hpp"
 #include "forces/formula_bound.hpp"
 #include "table/numbers.hpp"
+#include "table/quintic.hpp"
 #include "table/shapes.hpp"
 
 namespace carom::table::shapes {
@@ -21,24 +22,6 @@ using geometry::Bezier;
 using geometry::Vector;
 
 constexpr double two_pi = 6.283185307179586;
-/// The declared angle pi/1 where pieces of one curve join: rounding turns their tangents.
-constexpr int smooth = 1;
-
-/// A place on a curve with its first two derivatives.
-struct Jet {
-  double at;
-  Vector x, first, second;
-};
-
-/// The curve of degree 5 that has both jets.
-Bezier quintic(const Jet& a, const Jet& b) {
-  const double h = 0.2 * (b.at - a.at), bend = 0.05 * (b.at - a.at) * (b.at - a.at);
-  return {a.x,
-          b.x,
-          {a.x + h * a.first, a.x + (2.0 * h) * a.first + bend * a.second,
-           b.x - (2.0 * h) * b.first + bend * b.second, b.x - h * b.first},
-          5};
-}
 
 using Formula = TypedExpression;
 
@@ -132,8 +115,7 @@ class Drawing {
   }
 
  private:
-  static constexpr int deepest = 12;              ///< halvings of a quarter of the curve
-  static constexpr double most_distance = 1e-14;  ///< of its size
+  static constexpr int deepest = 12;  ///< halvings of a quarter of the curve
 
   static double length_of(Vector v) { return std::sqrt(dot(v, v)); }
   [[noreturn]] void refuse(const std::string& problem, double at) const {
@@ -172,12 +154,11 @@ class Drawing {
   /// How far the quintic is from the curve at most: docs/physics/exactness.md, Bézier curves. h is
   /// half of the length, `circle` the radius of Cauchy's circle about the middle.
   double distance(const Jet& a, const Jet& b) const {
-    const double h = 0.5 * (b.at - a.at), h6 = h * h * h * h * h * h;
+    const double h = 0.5 * (b.at - a.at);
     double least = HUGE_VAL;
     for (double circle = 4.0; circle > 1.5 * h; circle *= 0.75) {
-      const double around = circle * circle - h * h;
-      const double m = curve_.largest_near(a.at - (circle - h), b.at + (circle - h), circle);
-      const double bound = h6 * m * circle / (around * around * around * (circle - h));
+      const double bound = between_ends(
+          h, circle, curve_.largest_near(a.at - (circle - h), b.at + (circle - h), circle));
       if (bound < least) least = bound;
     }
     return least;

@@ -111,6 +111,8 @@ Shape path(const TableSpec&);
 Shape polar_curve(const TableSpec&);
 /// A closed curve x(t), y(t), as Bézier curves.
 Shape parametric_curve(const TableSpec&);
+/// The closed curve on which a formula of x and y vanishes.
+Shape implicit_curve(const TableSpec&);
 /// Curves with a name, by their formulas.
 Shape cardioid(const TableSpec&);
 Shape limacon(const TableSpec&);

@@ -32,6 +32,13 @@ Table parametric(const char* x, const char* y) {
   spec.formulas["y"] = {y, {}};
   return build_table(spec);
 }
+TableSpec implicit_spec(const char* equation, ExactPoint inside = at(0, 0)) {
+  TableSpec spec;
+  spec.shape = "implicit";
+  spec.formulas["equation"] = {equation, {}};
+  spec.points["inside"] = {inside};
+  return spec;
+}
 Table spline(std::vector<ExactPoint> points) {
   TableSpec spec;
   spec.shape = "spline";
@@ -74,6 +81,7 @@ std::vector<std::pair<const char*, Table>> tables() {
   all.emplace_back("Robnik's", parametric("cos(t) + 0.3*cos(2*t)", "sin(t) + 0.3*sin(2*t)"));
   all.emplace_back("flower", polar("1 + 0.2*sin(5*phi)"));
   all.emplace_back("superellipse", polar("(cos(phi)^4 + sin(phi)^4)^(-1/4)"));
+  all.emplace_back("implicit", build_table(implicit_spec("exp(x)+exp(y)+exp(-x-y)-5")));
   all.emplace_back("spline",
                    spline({at(0, 0), at(3, -1), at(4, 1), at(2, 2), at(1, 4), at(-1, 2)}));
   all.emplace_back("wavy box", wavy_box());
@@ -262,7 +270,7 @@ TEST(Beziers, ReversedOrbitsReturn) {
 void expect_same_orbits(const Table& curve, const Table& conic, double growth, double omega,
                         std::size_t count = 200) {
   EXPECT_GT(curve.walls.size(), 4u);
-  EXPECT_LE(curve.curve_distance, 1e-14);
+  EXPECT_LE(curve.curve_distance, 2e-14);
   Recorder a, b;
   World one(curve), other(conic);
   for (auto [world, seen] : {std::pair{&one, &a}, std::pair{&other, &b}}) {
@@ -285,7 +293,13 @@ TEST(Beziers, ConicsWrittenAsCurvesHaveTheirOrbits) {
               ellipse = build_table(*carom::ellipse(2, 1).spec);
   for (const double omega : {0.0, 0.3, -1.2})
     expect_same_orbits(polar("1 + 0*phi"), circle, 1e-12, omega);
+  // Shorter pieces: rounding of their ends turns normals more.
+  for (const TableSpec& spec :
+       {implicit_spec("x^2 + y^2 - 1"), implicit_spec("1 - sqrt(x^2 + y^2)", at(0.25, 0.5))})
+    for (const double omega : {0.0, 0.3, -1.2})
+      expect_same_orbits(build_table(spec), circle, 1e-11, omega);
   expect_same_orbits(parametric("2*cos(t)", "sin(t)"), ellipse, 1e-11, 0.0);
+  expect_same_orbits(build_table(implicit_spec("x^2/4 + y^2 - 1")), ellipse, 1e-11, 0.0);
   // The other way round it is the same table.
   expect_same_orbits(parametric("2*cos(t)", "-sin(t)"), ellipse, 1e-11, 0.0);
   // Chaotic in a field, so for a few hits alone.
@@ -339,6 +353,32 @@ TEST(Beziers, CurvesThatBoundNoRegionAreNamed) {
                                           bezier({at(1, 0), at(0, 0)})})),
             "");
   EXPECT_EQ(fault_of(path_spec(at(0, 0), {bezier({at(4, 4), at(-4, 4), at(0, 0)})})), "");
+}
+
+TEST(Beziers, CurvesOfEquationsAreWhatTheyAre) {
+  // Of two circles the first on the right; the same curve from elsewhere, and by its angle.
+  const char* circles = "(x^2 + y^2 - 1)*(x^2 + y^2 - 4)";
+  EXPECT_NEAR(measure(build_table(implicit_spec(circles))).area, M_PI, 1e-12);
+  EXPECT_NEAR(measure(build_table(implicit_spec(circles, at(1.5, 0)))).area, 4 * M_PI, 1e-12);
+  const Table wavy = build_table(
+                  implicit_spec("sqrt(x^2 + y^2) - 1 - 0.3*cos(3*atan2(y, x))", at(0.1, 0.1))),
+              same = polar("1 + 0.3*cos(3*phi)");
+  EXPECT_NEAR(measure(wavy).area, measure(same).area, 1e-12);
+  EXPECT_NEAR(measure(wavy).perimeter, measure(same).perimeter, 1e-12);
+  // Far from the origin, and small: 1e-14 of its size.
+  const Table small = build_table(implicit_spec("x^2 + y^2 - 1e-10"));
+  EXPECT_LT(small.curve_distance, 1e-19);
+  const auto mentions = [](const TableSpec& spec, const char* word) {
+    EXPECT_NE(fault_of(spec).find(word), std::string::npos) << fault_of(spec);
+  };
+  mentions(implicit_spec("x^2 + y^2"), "fulfilled");
+  mentions(implicit_spec("x^2 + y^2 + 1"), "no wall");
+  mentions(implicit_spec("x*y - 1", at(0, 0.5)), "does not close");
+  mentions(implicit_spec(circles, at(-1.5, 0)), "does not go around");
+  mentions(implicit_spec("abs(x) + abs(y) - 1", at(0.1, 0.2)), "corner");
+  mentions(implicit_spec("(x^2 + y^2)^2 - 2*(x^2 - y^2)", at(1, 0)), "crosses itself");
+  mentions(implicit_spec("(x^2 + y^2 - 1)^2"), "touches");
+  mentions(implicit_spec("log(x)"), "no value");
 }
 
 TEST(Beziers, WildFormulasAreNamed) {

@@ -39,6 +39,7 @@ def test_a_table_is_built_with_holes_and_obstacles():
         lambda: carom.lemon(1, 1),
         lambda: carom.discs([(0, 0), (6, 0)], radius=1),
         carom.cardioid,
+        lambda: carom.implicit("x^4 + y^4 - 1"),
         carom.limacon,
         carom.flower,
         carom.superellipse,

@@ -14,7 +14,7 @@ const std::vector<KeyDescription>& key_table() {
        "sinai, "
        "lorentz, discs, random-discs, cardioid, limacon, flower, superellipse, robnik, egg, path, "
        "polar, "
-       "parametric, spline or plane (no walls)"},
+       "parametric, implicit, spline or plane (no walls)"},
       {"table", "rectangle", "width", "number", "", "extent along x, from 0"},
       {"table", "rectangle", "height", "number", "", "extent along y, from 0"},
       {"table", "polygon|triangle", "points", "list of points", "",
@@ -34,6 +34,11 @@ const std::vector<KeyDescription>& key_table() {
       {"table", "parametric", "from", "number", "0", "where t begins"},
       {"table", "parametric", "to", "number", "\"2*pi\"",
        "where it ends, and the wall with all its derivatives is as where it begins"},
+      {"table", "implicit", "equation", "formula", "",
+       "a formula of x and y that vanishes on the wall and changes its sign there: \"x^4 + y^4 - "
+       "1\""},
+      {"table", "implicit", "inside", "point", "[0, 0]",
+       "a point of the domain: the wall is the curve on its right"},
       {"table", "spline", "points", "list of points", "",
        "points that the wall passes through, either way round"},
       {"table", "regular", "angle", "angle", "0", "direction of the first corner against +x"},

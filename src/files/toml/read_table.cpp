@@ -13,7 +13,7 @@ const std::vector<std::string>& shapes() {
       "rectangle", "polygon",    "triangle", "regular",      "circle",  "ellipse", "annulus",
       "stadium",   "mushroom",   "lemon",    "sinai",        "lorentz", "discs",   "random-discs",
       "cardioid",  "limacon",    "flower",   "superellipse", "robnik",  "egg",     "path",
-      "polar",     "parametric", "spline",   "plane"};
+      "polar",     "parametric", "implicit", "spline",       "plane"};
   return names;
 }
 
@@ -180,6 +180,8 @@ void read_key(const KeyDescription& key, const Value& value, TableSpec& spec) {
   const std::string name(key.key);
   if (key.type == "list of points") {
     spec.points[name] = as_points(value);
+  } else if (key.type == "point") {
+    spec.points[name] = {as_point(value)};
   } else if (key.type == "list of numbers") {
     spec.lists[name] = as_numbers(value);
   } else if (key.type == "formula") {

@@ -1,0 +1,19 @@
+// Power series of a typed formula along a curve, with ranges in place of numbers.
+#pragma once
+
+#include <array>
+
+#include "carom/forces/typed_expression.hpp"
+#include "forces/complex_box.hpp"
+
+namespace carom::forces {
+
+/// f(u), f'(u), f''(u)/2 ... for all u of an interval: coefficient k encloses the k-th derivative
+/// over k!. Without bounds where f is not smooth.
+using SeriesOfRanges = std::array<complex_box::Range, 7>;
+
+/// Of a formula of x and y where x and y are functions of u.
+SeriesOfRanges series_along(const TypedExpression&, const SeriesOfRanges& x,
+                            const SeriesOfRanges& y);
+
+}  // namespace carom::forces

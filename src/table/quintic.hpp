@@ -1,0 +1,37 @@
+// Pieces of curves that are written as formulas.
+#pragma once
+
+#include "carom/geometry/curve.hpp"
+
+namespace carom::table::shapes {
+
+/// A place on a curve with its first two derivatives.
+struct Jet {
+  double at;
+  geometry::Vector x, first, second;
+};
+
+/// The curve of degree 5 that has both jets.
+inline geometry::Bezier quintic(const Jet& a, const Jet& b) {
+  const double h = 0.2 * (b.at - a.at), bend = 0.05 * (b.at - a.at) * (b.at - a.at);
+  return {a.x,
+          b.x,
+          {a.x + h * a.first, a.x + (2.0 * h) * a.first + bend * a.second,
+           b.x - (2.0 * h) * b.first + bend * b.second, b.x - h * b.first},
+          5};
+}
+
+/// A bound of a function that is analytic within `circle` of the middle of [m - h, m + h], where it
+/// is at most m in size, and that vanishes at both ends with its first two derivatives: Cauchy's
+/// formula, docs/physics/exactness.md, Bézier curves.
+inline double between_ends(double h, double circle, double m) {
+  const double h6 = h * h * h * h * h * h, around = circle * circle - h * h;
+  return h6 * m * circle / (around * around * around * (circle - h));
+}
+
+/// By how much a piece may be off the curve that was written, of its size.
+inline constexpr double most_distance = 1e-14;
+/// The declared angle pi/1 where pieces of one curve join: rounding turns their tangents.
+inline constexpr int smooth = 1;
+
+}  // namespace carom::table::shapes
