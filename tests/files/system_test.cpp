@@ -53,6 +53,8 @@ TEST(System, SpeedFollowsFromEnergyOrVelocity) {
   const System free = read(square(start));
   EXPECT_EQ(free.particles[0].speed, 5.0);
   EXPECT_EQ(free.initial.velocity, (geometry::Vector{3, -4}));
+  const std::string without_kind = "[initial]\nposition = [0.5, 0.5]\nvelocity = [3, -4]\n";
+  EXPECT_EQ(read(square(without_kind)).particles[0].speed, 5.0);
   EXPECT_EQ(read(square("[particles]\nspeed = 2\n" + start)).particles[0].speed, 2.0);
   EXPECT_EQ(read(square("[particles]\nenergy = 2\n" + start)).particles[0].speed, 2.0);
   EXPECT_EQ(read(square("[field]\nlarmor_radius = 10\n" + start)).particles[0].omega, 0.5);

@@ -164,9 +164,6 @@ InitialCondition read_initial(Value& root, const Table& table,
   std::vector<std::string> names;
   for (const auto& [name, kind] : kinds()) names.push_back(name);
   names.push_back("file");
-  const Value* position = value.find("position");
-  if (position != nullptr && value.find("kind") == nullptr)
-    value.set("kind", text_value("point", position->place));
   const std::string name = read_kind(value, "initial", "kind", names);
   TomlSection section(value, "initial", name);
   section.check_keys();

@@ -221,7 +221,11 @@ std::vector<double> read_energies(Value& root, std::size_t particles) {
 }
 
 std::vector<Particle> read_particles(Value& root) {
-  take_starts_from_file(*root.find("initial"));
+  Value& initial = *root.find("initial");
+  const Value* position = initial.find("position");
+  if (position != nullptr && initial.find("kind") == nullptr)
+    initial.set("kind", text_value("point", position->place));
+  take_starts_from_file(initial);
   take_speeds_from_starts(root);
   return Reader(root).read();
 }
