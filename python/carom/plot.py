@@ -172,11 +172,13 @@ def survival(result, ax=None, scale="log", **style):
     seen = points[(points["p"] > 0) & ((points["t"] > 0) | (scale == "linear"))]
     low = numpy.maximum(seen["low"], seen["p"].min() * 1e-3 if len(seen) else 1e-300)
     _with_band(ax, seen["t"], seen["p"], low, seen["high"], style)
+    ax.set(xscale=scale, yscale="log", xlabel="t", ylabel="p(t)")
     _decay(ax, result.fit)
-    ax.set_yscale("log")
-    ax.set_xscale(scale)
-    ax.set_xlabel("t")
-    ax.set_ylabel("p(t)")
+    bottom, top = ax.get_ylim()
+    if bottom > 0.1:  # powers of ten say little
+        ax.set_ylim(min(bottom, 0.5), max(top, 1.1), auto=True)
+        ax.yaxis.set_major_formatter("{x:g}")
+        ax.yaxis.set_minor_formatter("{x:g}")
     _title(ax, result.system)
     return ax
 
@@ -199,9 +201,8 @@ def _decay(ax, fit):
     p = fit.amplitude * law + (fit.plateau if "plateau" in fit.model else 0.0)
     name, value = ("κ", fit.rate) if exponential else ("exponent", fit.exponent)
     kind = f"local slope, {fit.model}" if fit.local_slope else fit.model
-    label = f"{kind}: {name} = {_with_error(value, fit.stderr)}"
-    if not fit.decided:
-        label += "\n(undecided)"
+    # In short lines, so that it finds a place beside the curve.
+    label = f"{kind}\n{name} = {_with_error(value, fit.stderr)}" + ("" if fit.decided else ", undecided")
     ax.plot(t, p, color=COLOURS[1], linewidth=1.5, zorder=3, label=label)
     _legend(ax, fontsize="x-small")
 
@@ -272,11 +273,13 @@ def basins(result, ax=None, colour=None, x=None, y=None, size=None, **style):
         values = rows[colour]
         seen = values[values > 0] if colour != "lambda" else values[:0]
         wide = len(seen) and seen.max() > 20 * seen.min()
-        norm = LogNorm(seen.min(), seen.max()) if wide else Normalize()
-        values = numpy.maximum(values, seen.min()) if wide else values
+        least = float(numpy.quantile(seen, 0.005)) if wide else 0.0  # few starts need no share of the colours
+        norm = LogNorm(least, seen.max()) if wide else Normalize()
+        values = numpy.maximum(values, least) if wide else values
+        below = "min" if wide and seen.min() < least else "neither"
         drawn = _cover(ax, rows[x], rows[y], values, norm, "viridis", size, style)
         label = {"time": "time of the end", "hits": "hits", "lambda": "λ", "sali": "SALI"}[colour]
-        ax.figure.colorbar(drawn, ax=ax, label=label, shrink=0.9)
+        ax.figure.colorbar(drawn, ax=ax, label=label, shrink=0.9, extend=below)
     _title(ax, result.system)
     if not in_plane:
         ax.set(xlabel=_symbol(x), ylabel=_symbol(y))
@@ -385,8 +388,7 @@ def section(result, ax=None, x=None, y=None, **style):
     if "label" in style:
         _legend(ax)
     ax.set(xlabel=_symbol(label_x), ylabel=_symbol(label_y))
-    if not (1 < len(result.system.walls) <= 12 and at_walls):
-        _title(ax, result.system)
+    _title(ax, result.system)
     return ax
 
 

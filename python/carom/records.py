@@ -98,6 +98,10 @@ class Rows(numpy.ndarray):
     """A structured array of NumPy whose columns are plain arrays; a row of a value and its error is an
     Estimate, and a wrong name has a hint."""
 
+    def __getattr__(self, key):
+        hint = f": a column is read as rows['{key}']" if key in (self.dtype.names or ()) else ""
+        raise AttributeError(f"rows have no attribute '{key}'{hint}")
+
     def __getitem__(self, key):
         names = self.dtype.names
         if isinstance(key, str) and names and key not in names:

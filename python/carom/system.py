@@ -28,6 +28,7 @@ _OPTIONS = {
 _ALL_OPTIONS = {name: valued for options in _OPTIONS.values() for name, valued in options.items()}
 #: Names of the options that a system holds for its commands, beside the keys of its file.
 _HELD = ("position", "velocity", "engine", "isa", "threads", "trajectory")
+_ARCHIVES = (".h5", ".hdf5")
 
 
 #: Keywords that a system holds; the others say how one command computes.
@@ -315,6 +316,8 @@ class System:
 def load(path) -> System:
     """A system file (TOML)."""
     path = path_of(path)
+    if path.endswith(_ARCHIVES):
+        raise InputError(f"{path}: an archive is not a system; carom.open reads it", (path, 0, 0, ""), "a TOML file")
     written = _carom.read_text(path)
     text: str | bytes = written
     name = path if "/" in path or "." in path else f"./{path}"  # other names are those of systems
@@ -332,6 +335,8 @@ def system(name: str) -> System:
     if name not in texts:
         near = _carom.nearest_name(name, list(texts))
         hint = f", did you mean '{near}'?" if near else ""
+        if name.endswith((".toml", *_ARCHIVES)):
+            hint = f"; carom.{'load' if name.endswith('.toml') else 'open'} reads a file"
         raise InputError(f"there is no system '{name}'{hint}", ("", 0, 0, name), ", ".join(texts), near)
     return System(texts[name], name)
 

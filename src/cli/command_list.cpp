@@ -224,11 +224,12 @@ void define_commands(CLI::App& app, Options& o) {
           "  carom plot result.h5 --what rate\n"
           "  carom run stadium --collisions 100 -o orbit.png     computes and draws\n"
           "\n"
-          "Without -o the picture is NAME.png in this folder. It needs Python with matplotlib.")
+          "Without -o the picture is NAME.png in this folder, with --what NAME-WHAT.png. It needs "
+          "Python with matplotlib.")
       .system("SOURCE", "Archive, TOML file or built-in name")
       .text("--what", o.what,
             "orbit|energy|survival|rate|basins|times|diffusion|correlation|free_paths|lyapunov|"
-            "spectrum|exponents",
+            "convergence|spectrum|exponents",
             "Which picture of a result (default: the first that it has)")
       .output("PICTURE", "A name ending in .png, .svg or .pdf");
   Command(

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <functional>
 #include <new>
 #include <string>
 #include <system_error>
@@ -66,10 +67,10 @@ int call(const Options& options) {
   return is_sweep(options) ? sweep(options, command) : command(options);
 }
 
-// Calls the command. Its text comes last: if its reader is gone, all else is done.
-int status_of(const Options& options, bool& closed) {
+// Runs a command, or what follows it. Its text comes last: if its reader is gone, all else is done.
+int status_of(const std::function<int()>& run, bool& closed) {
   try {
-    return call(options);
+    return run();
   } catch (const carom::cli::OutputClosed&) {
     closed = true;
     return carom::cli::done;
@@ -99,7 +100,8 @@ int main(int argc, char** argv) {
     if (silent && !is_plain_ensemble(options)) return done;
     const PictureOfResult picture(parsed.options);
     bool closed = false;
-    const int status = picture.finish(status_of(options, closed));
+    int status = status_of([&] { return call(options); }, closed);
+    status = status_of([&] { return picture.finish(status); }, closed);
     return closed ? end_by_closed_pipe() : status;
   } catch (const carom::SamplingStopped&) {
     std::fputs("carom: interrupted before there was anything to show\n", stderr);

@@ -56,15 +56,24 @@ std::string unknown_option(const CLI::App& app, const CLI::App& command, int arg
     if (first.empty()) first = word;
     if (!is_option(word)) continue;
     const std::string name = word.substr(0, word.find('='));
-    std::vector<std::string> others;
+    std::vector<std::string> others, known;
     for (const CLI::App* other : commands_of(app))
       if (other->get_option_no_throw(name)) others.push_back(other->get_name());
-    if (!others.empty() && &app != &command)
-      return name + " means nothing to carom " + command.get_name() + ": it is an option of " +
-             fmt::format("{}", fmt::join(others, ", "));
-    std::vector<std::string> known;
     for (const CLI::Option* option : command.get_options())
       for (const std::string& one : option->get_lnames()) known.push_back("--" + one);
+    if (!others.empty() && &app == &command) {
+      const auto chosen = app.get_subcommands();
+      const std::string of = chosen.empty() ? others.front() : chosen.front()->get_name();
+      return name + " stands before the command: write carom " + of + " SYSTEM " + name;
+    }
+    if (!others.empty()) {
+      const auto longer = std::find_if(known.begin(), known.end(), [&](const std::string& one) {
+        return one.starts_with(name.substr(0, name.size() - 1));
+      });
+      return name + " means nothing to carom " + command.get_name() + ": it is an option of " +
+             fmt::format("{}", fmt::join(others, ", ")) +
+             (longer == known.end() ? "" : "; did you mean '" + *longer + "'?");
+    }
     const std::string near = nearest_name(name, known);
     return "there is no option '" + name + "'" +
            (near.empty() ? std::string() : "; did you mean '" + near + "'?");

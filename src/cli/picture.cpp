@@ -208,6 +208,7 @@ PictureOfResult::PictureOfResult(Options& options) {
   if (call_module(options.output, {}) == stopped) throw SamplingStopped();
   picture_ = std::exchange(options.output, {});
   force_ = options.force;
+  json_ = options.json;
   options.output = folder_.emplace().file("result.h5");
   options.hidden_archive = true;
 }
@@ -215,7 +216,9 @@ PictureOfResult::PictureOfResult(Options& options) {
 int PictureOfResult::finish(int status) const {
   if (picture_.empty() || status == bad_input || status == usage) return status;
   const int drawn = draw(folder_->file("result.h5"), picture_, force_);
-  return drawn == done ? status : drawn;
+  if (drawn != done) return drawn;
+  if (!json_) print(fmt::format("picture: {}\n", picture_));
+  return status;
 }
 
 }  // namespace carom::cli

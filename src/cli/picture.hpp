@@ -26,13 +26,13 @@ class PictureOfResult {
   /// Takes the picture's name out of `options`. Throws InputError for other endings than those of
   /// archives and pictures.
   explicit PictureOfResult(Options& options);
-  /// Draws, if there is something to draw: not after bad input. Returns the exit status, given that
-  /// of the command.
+  /// Draws, if there is something to draw: not after bad input. The text of the command names the
+  /// picture. Returns the exit status, given that of the command.
   int finish(int status) const;
 
  private:
   std::string picture_;
-  bool force_ = false;
+  bool force_ = false, json_ = false;
   std::optional<TemporaryFolder> folder_;
 };
 

@@ -108,6 +108,8 @@ def test_errors_in_files_have_their_lines(tmp_path):
 def test_wrong_columns_and_attributes_have_hints(escape, lyapunov):
     with pytest.raises(carom.InputError, match="no column 'P' among t, p, low, high; did you mean 'p'"):
         escape.survival["P"]
+    with pytest.raises(AttributeError, match=r"read as rows\['p'\]"):
+        escape.survival.p
     with pytest.raises(AttributeError, match="did you mean 'lambda_'"):
         lyapunov.lam
     with pytest.raises(AttributeError, match="did you mean 'survival'"):
@@ -117,6 +119,14 @@ def test_wrong_columns_and_attributes_have_hints(escape, lyapunov):
     run = carom.run("stadium", collisions=3)
     with pytest.raises(carom.InputError, match="no column 'T' among .*; did you mean 't'"):
         run.hits["T"]
+
+
+def test_files_are_read_by_their_function():
+    for call, name, function in (
+        (carom.load, "x.h5", "carom.open"), (carom.system, "x.toml", "carom.load"), (carom.system, "x.h5", "carom.open"),
+    ):  # fmt: skip
+        with pytest.raises(carom.InputError, match=function):
+            call(name)
 
 
 def test_samples_must_be_asked_for():

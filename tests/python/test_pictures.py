@@ -170,7 +170,7 @@ def test_the_decay_is_drawn_in_its_window():
     result = carom.escape("stadium", trajectories=100_000, window=(100, 400))
     assert result.fit.model == "exponential"
     line = carom.plot.survival(result).get_lines()[-1]
-    assert line.get_label().startswith("exponential: κ = ")
+    assert line.get_label().startswith("exponential\nκ = ")
     assert list(line.get_xdata()[[0, -1]]) == result.fit.window
     t, p = result.survival["t"], result.survival["p"]
     fitted = numpy.interp(t, line.get_xdata(), line.get_ydata())
@@ -182,7 +182,31 @@ def test_a_decay_in_a_short_window_is_a_local_slope():
     result = carom.escape("stadium", trajectories=100_000, t_max=500, window=(100, 150))
     assert result.fit.local_slope
     line = carom.plot.survival(result).get_lines()[-1]
-    assert line.get_label().startswith("local slope, exponential: κ = ")
+    assert line.get_label().startswith("local slope, exponential\nκ = ")
+
+
+def test_the_legend_of_a_decay_covers_no_curve():
+    plateau = carom.escape("mushroom", trajectories=20_000)
+    for result in (plateau, carom.escape("circle", trajectories=20_000)):
+        axes = result.plot()
+        axes[0].figure.canvas.draw()
+        for ax in axes:
+            box = ax.get_legend().get_window_extent()
+            curve = ax.get_lines()[0].get_path().interpolated(50).vertices
+            assert result.fit.model and not any(box.contains(*place) for place in ax.transData.transform(curve))
+
+
+def test_a_share_that_stays_has_plain_numbers():
+    ax = carom.plot.survival(carom.escape("sinai", trajectories=100, t_max=5))
+    assert ax.get_ylim()[0] <= 0.5
+    carom.plot.survival(carom.escape("three-disc", trajectories=1000), ax=ax)
+    assert ax.get_ylim()[0] < 0.1  # the first has not fixed the range
+
+
+def test_few_short_times_take_no_colours():
+    result = carom.escape("mushroom", trajectories=2000, t_max=100, per_trajectory=True)
+    bar = carom.plot.times(result).figure.axes[-1]
+    assert bar.get_ylim()[0] > 5 * result.per_trajectory["time"].min()
 
 
 def test_no_decay_is_drawn_where_the_data_tell_none():

@@ -41,10 +41,23 @@ def test_a_table_is_drawn_as_a_system_is(carom, tmp_path):
     assert (tmp_path / "other.svg").stat().st_size != (tmp_path / "stadium.svg").stat().st_size
 
 
+def test_a_file_without_a_title_is_known_by_its_name(carom, tmp_path):
+    (tmp_path / "mine.toml").write_text('[table]\nshape = "circle"\nradius = 1\n', encoding="utf-8")
+    carom("table", "./mine.toml", "-o", "mine.svg")
+    assert "./mine.toml" in (tmp_path / "mine.svg").read_text(encoding="utf-8")
+
+
+def test_help_names_the_pictures(carom):
+    said = "".join(carom("plot", "--help").stdout.split())
+    for name in ("energy", "rate", "times", "correlation", "free_paths", "convergence", "spectrum", "exponents"):
+        assert f"|{name}" in said
+
+
 def test_an_archive_is_drawn(carom, tmp_path):
     carom("run", "ellipse-magnetic", "--collisions", 20, "-o", "orbit.h5", "--quiet")
-    carom("plot", "orbit.h5")
+    assert carom("plot", "orbit.h5").stdout == "picture: orbit.png\n"
     assert is_picture(tmp_path / "orbit.png")
+    assert carom("plot", "orbit.h5", "--what", "orbit").stdout == "picture: orbit-orbit.png\n"
     carom("plot", "orbit.h5", status=1)  # it is there already
     carom("plot", "orbit.h5", "--force")
 
@@ -91,7 +104,7 @@ def test_a_sweep_without_results_has_no_picture(carom, tmp_path):
 def test_a_command_draws_its_result(carom, tmp_path, command):
     report = carom(*command, "-o", "result.png", "--quiet").stdout
     assert is_picture(tmp_path / "result.png")
-    assert "archive" not in report
+    assert "archive" not in report and report.endswith("\npicture: result.png\n")
     assert list(tmp_path.iterdir()) == [tmp_path / "result.png"]
 
 

@@ -76,7 +76,7 @@ std::string section_text(const System& system, const SectionResult& result, cons
   if (!lines.empty()) {
     text += "\n" + lines.table();
     if (result.orbits > lines.size())
-      text += fmt::format("  of {}\n", counted(result.orbits, "orbit"));
+      text += fmt::format("  the first {} of {}\n", lines.size(), counted(result.orbits, "orbit"));
   }
   const std::string ends = fates_text(result);
   if (result.incomplete > 0)

@@ -1,4 +1,6 @@
 // carom plot, carom animate: the picture or the film of an archive or a system.
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "carom/base/error.hpp"
@@ -11,10 +13,14 @@ namespace carom::cli {
 
 namespace {
 
-// Draws, and says with --json what was made.
+// Draws, and says what was made.
 int drawn(const Options& options, const char* kind, const std::string& file) {
   const int status = draw(options.system, file, options.force, options.what);
-  if (status != done || !options.json) return status;
+  if (status != done) return status;
+  if (!options.json) {
+    print(fmt::format("{}: {}\n", kind, file));
+    return done;
+  }
   files::Json json = files::Json::object();
   json.set("version", version).set("system", options.system).set("kind", kind).set("file", file);
   if (!options.what.empty()) json.set("what", options.what);
@@ -22,11 +28,15 @@ int drawn(const Options& options, const char* kind, const std::string& file) {
   return done;
 }
 
+std::string name_of(const std::string& source) {
+  return std::filesystem::path(source).stem().string();
+}
+
 }  // namespace
 
 int animate(const Options& options) {
   std::string film = options.output;
-  if (film.empty()) film = std::filesystem::path(options.system).stem().string() + ".gif";
+  if (film.empty()) film = name_of(options.system) + ".gif";
   if (!film.ends_with(".gif") && !film.ends_with(".mp4"))
     throw InputError(Place{"command line", 0, 0, "-o"}, "'" + film + "' is not a film",
                      "a name ending in .gif or .mp4");
@@ -35,7 +45,8 @@ int animate(const Options& options) {
 
 int plot(const Options& options) {
   std::string picture = options.output;
-  if (picture.empty()) picture = std::filesystem::path(options.system).stem().string() + ".png";
+  if (picture.empty())
+    picture = name_of(options.system) + (options.what.empty() ? "" : "-" + options.what) + ".png";
   refuse_other_endings(picture);
   return drawn(options, "picture", picture);
 }

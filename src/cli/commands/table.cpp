@@ -10,8 +10,21 @@
 #include "cli/reports/table_report.hpp"
 #include "files/checkpoint/work_folder.hpp"
 #include "files/progress.hpp"
+#include "files/toml/value.hpp"
 
 namespace carom::cli {
+
+namespace {
+
+// The system as it is drawn: a file without a title is known by its name.
+std::string with_title(const LoadedSystem& loaded) {
+  if (!loaded.system.title.empty()) return loaded.resolved_toml;
+  files::Value root = files::parse_document(loaded.resolved_toml, loaded.system.name);
+  root.set("title", files::text_value(loaded.system.name, root.place));
+  return files::print_document(root);
+}
+
+}  // namespace
 
 int table(const Options& options) {
   const Stopwatch watch;
@@ -27,7 +40,7 @@ int table(const Options& options) {
   if (!options.output.empty()) {
     const TemporaryFolder folder;
     const std::string file = folder.file("table.toml");
-    if (!files::write_new_file(file, loaded.resolved_toml))
+    if (!files::write_new_file(file, with_title(loaded)))
       throw InputError("cannot write '" + file + "'");
     if (const int status = draw(file, options.output, options.force); status != done) return status;
   }

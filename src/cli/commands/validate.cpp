@@ -13,6 +13,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
+#include "cli/reports/grounds.hpp"
 #include "files/progress.hpp"
 
 namespace carom::cli {
@@ -125,8 +126,12 @@ std::string text_of(const Validation::Done& one, bool verbose) {
 }
 
 std::string summary_of(const Validation& all) {
-  return fmt::format("\n{} passed, {} failed{}\n", all.passed(), all.failed(),
-                     all.complete ? "" : ", interrupted");
+  return fmt::format(
+      "\n{} passed, {} failed{}\n{}", all.passed(), all.failed(),
+      all.complete ? "" : ", interrupted",
+      all.cases.empty()
+          ? ""
+          : grounds_text("formulas, published values, another simulation", "other systems"));
 }
 
 int validate(const Options& options) {

@@ -32,12 +32,25 @@ bool contains(const std::vector<std::string>& list, const std::string& word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
+/// ", it belongs to [SECTION], …": a key that stands above all sections.
+std::string owners_of(const std::string& key) {
+  std::vector<std::string> owners;
+  for (const KeyDescription& one : key_table()) {
+    const std::string section = "[" + std::string(one.section) + "]";
+    if (one.key == key && contains(known_sections, std::string(one.section)) &&
+        !contains(owners, section))
+      owners.push_back(section);
+  }
+  return owners.empty() ? "" : ", it belongs to " + files::listed(owners);
+}
+
 void check_sections(const Value& root) {
   for (const files::Entry& entry : root.entries) {
     if (entry.key == "title" || contains(known_sections, entry.key)) continue;
     std::vector<std::string> names = known_sections;
     names.emplace_back("title");
-    throw InputError(entry.place, "unknown section or key '" + entry.key + "'",
+    throw InputError(entry.place,
+                     "unknown section or key '" + entry.key + "'" + owners_of(entry.key),
                      "one of " + files::listed(names), nearest_name(entry.key, names));
   }
 }
@@ -248,6 +261,9 @@ LoadedSystem read_system(std::string_view toml, const std::string& file,
 }
 
 LoadedSystem load_system(const std::string& name, const SystemOverrides& overrides) {
+  if (name.ends_with(".h5") || name.ends_with(".hdf5"))
+    throw InputError({name, 0, 0, ""}, "an archive is not a system",
+                     "a system; carom plot draws an archive, --resume continues it");
   const bool is_file = name.find('/') != std::string::npos || name.ends_with(".toml");
   if (!is_file) return read_system(text_of_builtin(name), name, overrides);
   const std::string text =
