@@ -80,7 +80,7 @@ void define_commands(CLI::App& app, Options& o) {
   Command(
       app, o, compute, "lyapunov", "Measure Lyapunov exponents and the chaotic share",
       "Examples:\n"
-      "  carom lyapunov stadium --closed\n"
+      "  carom lyapunov stadium --closed --trajectories 1e4\n"
       "  carom lyapunov mushroom --closed --t-max 1e4 --json\n"
       "  carom lyapunov sinai --trajectories 1e4 --window 20:100 -o lambda.h5\n"
       "  carom lyapunov mushroom --closed --per-trajectory -o map.h5\n"
