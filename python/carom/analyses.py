@@ -6,7 +6,7 @@ import numpy
 
 from . import _carom
 from .axes import (
-    COLOURS, colour_of, legend, new_axes, picture, plain, scale_of, style_of, subplots, symbol, title, title_above,
+    COLOURS, colour_bar, colour_of, legend, new_axes, picture, plain, scale_of, style_of, subplots, symbol, title, title_above,
     with_error,
 )  # fmt: skip
 from .errors import InputError
@@ -29,7 +29,9 @@ def sweep(result, ax=None, y=None, **style):
         y = max(with_errors or others, key=lambda name: numpy.count_nonzero(numpy.isfinite(table[name])))
     ax = new_axes(ax)
     if len(keys) == 1:
-        _line(ax, table, keys[0], y, style)
+        of_a_law = y in ("rate", "exponent") and "model" in table.dtype.names
+        decided = [not of_a_law or one["fit"].get("decided") is not False for one in result._json["sweep"]]
+        _line(ax, table, keys[0], y, numpy.array(decided), style)
         ax.set(xlabel=symbol(keys[0]), ylabel=symbol(y))
     else:
         first, second = (numpy.unique(table[key]) for key in keys)
@@ -37,8 +39,8 @@ def sweep(result, ax=None, y=None, **style):
         values[numpy.searchsorted(first, table[keys[0]]), numpy.searchsorted(second, table[keys[1]])] = table[y]
         ax.set_facecolor("0.9")  # no value
         alpha = style_of(style).get("alpha")
-        colours = ax.pcolormesh(first, second, values.T, shading="nearest", norm=scale_of(values), alpha=alpha)
-        ax.figure.colorbar(colours, ax=ax, label=symbol(y))
+        colours = ax.pcolormesh(_edges(first), _edges(second), values.T, norm=scale_of(values), alpha=alpha)
+        colour_bar(ax, colours, y)
         ax.set(xlabel=symbol(keys[0]), ylabel=symbol(keys[1]))
         for values, scale in ((first, ax.set_xscale), (second, ax.set_yscale)):
             if _geometric(values):
@@ -47,8 +49,17 @@ def sweep(result, ax=None, y=None, **style):
     return ax
 
 
-def _line(ax, table, key, y, style):
-    """Values with errors, in runs without a gap and of one law."""
+def _edges(values):
+    """Of cells around values, halfway between them."""
+    places = numpy.log(values) if _geometric(values) else values
+    middles = (places[1:] + places[:-1]) / 2
+    first, last = (middles[0], middles[-1]) if len(middles) else (places[0] - 0.5, places[0] + 0.5)
+    edges = numpy.array([2 * places[0] - first, *middles, 2 * places[-1] - last])
+    return numpy.exp(edges) if _geometric(values) else edges
+
+
+def _line(ax, table, key, y, decided, style):
+    """Values with errors, in runs without a gap and of one law; hollow where the law is not decided."""
     of_a_law = y in ("rate", "exponent") and "model" in table.dtype.names
     laws = table["model"] if of_a_law else numpy.full(len(table), "")
     order = numpy.argsort(table[key])
@@ -65,14 +76,16 @@ def _line(ax, table, key, y, style):
         number = names.index(laws[part[0]])
         error = table[f"{y}_stderr"][part] if f"{y}_stderr" in table.dtype.names else None
         usual = {"color": COLOURS[number % len(COLOURS)], "label": plain(laws[part[0]]), "markersize": 4}
-        fmt = "-" + "osD^vP"[number % 6]
-        ax.errorbar(
-            table[key][part], table[y][part], yerr=error, fmt=fmt, capsize=2, elinewidth=0.9, **style_of(style, **usual)
-        )
-    if len(names) > 1 or "label" in style:
-        handles, labels = ax.get_legend_handles_labels()
-        once = dict(zip(labels, handles))
-        legend(ax, list(once.values()), list(once))
+        usual = style_of(style, marker="osD^vP"[number % 6], **usual)
+        if error is not None and y == "survival":  # a share: no bar goes below zero
+            error = numpy.array([numpy.minimum(error, table[y][part]), error])
+        ax.errorbar(table[key][part], table[y][part], yerr=error, capsize=2, elinewidth=0.9, **usual)
+        hollow = [i for i in part if not decided[i]]
+        usual |= {"linestyle": "", "markerfacecolor": "white", "label": "undecided"}
+        if hollow:
+            ax.plot(table[key][hollow], table[y][hollow], **usual)
+    if len(names) > 1 or "label" in style or not decided.all():
+        legend(ax)
     if _geometric(table[key][order]):
         ax.set_xscale("log")
     if y == "survival" and scale_of(table[y][known]) == "log":
@@ -105,8 +118,13 @@ def lyapunov(result, ax=None, **style):
         edges, counts = _coarser(bins)
         ax.stairs(counts / (counts.sum() * numpy.diff(edges)), edges, fill=True, **style)
         ax.ticklabel_format(useOffset=False)
-    ax.margins(y=0.15)
+        ax.margins(y=0.25)
     _exponent_line(ax, result, ax.axvline, ax.axvspan, mean)
+    chaotic, share = result.json["chaotic_lambda"], result.json["chaotic_share"]
+    if chaotic and share and share["value"] < 1.0 and not few:
+        label = f"λ of the chaotic ones = {with_error(chaotic['value'], chaotic['stderr'])}"
+        ax.axvline(chaotic["value"], **(mean | {"color": COLOURS[4], "linestyle": "--", "label": label}))
+        legend(ax)
     if "label" in labelled:
         legend(ax, fontsize="small")
     ax.set(xlabel="exponent of an orbit", ylabel="" if few else "density")
@@ -116,19 +134,26 @@ def lyapunov(result, ax=None, **style):
 
 @picture
 def convergence(result, ax=None, **style):
-    """The exponent since the start at growing times, and the one that the run gives. style: that of the line, as
-    color and label."""
+    """The exponent since the start at growing times, of a repeller that at each kick of its copies, and the one that
+    the run gives. style: that of the line, as color and label."""
     ax = new_axes(ax)
     own = style_of(style)
     style = style_of(style, marker="o", markersize=4, color=COLOURS[0])
     points = result.convergence
+    points = None if points is None else points[numpy.isfinite(points["lambda"])]
     if points is not None and len(points):
         t, value, error = points["t"], points["lambda"], numpy.nan_to_num(points["lambda_stderr"])
         ax.plot(t, value, **style)
         ax.fill_between(t, value - error, value + error, color=style["color"], alpha=0.2, linewidth=0)
-        ax.set_xscale("log")
+    elif result.repeller is not None:
+        kicks = result.json["repeller"]["lambda"]["at_kicks"]
+        t = result.repeller.kick / 2.0 ** numpy.arange(len(kicks))
+        value, error = numpy.array([(one["value"], one["stderr"]) for one in kicks]).T
+        ax.errorbar(t, value, yerr=error, capsize=2, **(style | {"linestyle": ""}))
+    ax.set_xscale("log")
     _exponent_line(ax, result, ax.axhline, ax.axhspan, {"color": own.get("color", COLOURS[1]), "alpha": own.get("alpha")})
-    ax.set(xlabel="t", ylabel="λ(t)")
+    time = points is not None and len(points) or result.repeller is None
+    ax.set(xlabel="$t$" if time else "kick of the copies", ylabel="λ$(t)$" if time else "λ")
     title(ax, result.system)
     return ax
 
@@ -189,7 +214,7 @@ def orbits(result, ax=None, most=12, **style):
         return ax
     across = max(1, min(4, len(shown)))
     down = max(1, -(-len(shown) // across))
-    figure, axes = subplots(down, across, figsize=(2.1 * across, 0.4 + 2.3 * down), squeeze=False)
+    figure, axes = subplots(down, across, squeeze=False)
     for place in axes.flat[max(1, len(shown)) :]:
         place.remove()
     for number, one in enumerate(shown):
@@ -198,13 +223,22 @@ def orbits(result, ax=None, most=12, **style):
         place.set(xticks=[], yticks=[], xlabel="", ylabel="")
         place.spines[:].set_visible(False)
         real, imaginary = one["multipliers"][0]
-        text = f"{textwrap.shorten(one['word'], 24, placeholder='…')}\nT = {one['period']:.5g}"
+        text = f"{textwrap.shorten(one['word'], 24, placeholder='…')}\n$T$ = {with_error(one['period'], None, 5)}"
         if not one["family"]:
-            text += f", Λ = {real:.4g}" + (f" ± {imaginary:.3g} i" if imaginary else "")
-        place.set_title(text, fontsize="small")
+            text += f", Λ = {with_error(real, None, 4)}"
+            text += f" ± {with_error(imaginary, None)} i" if imaginary else ""
+        else:
+            text += ", a family"
+        place.set_title(text, fontsize=8, pad=2)
     title_above(figure, result.system)
     if not shown:
         _orbits(result, axes[0, 0], [], style)
+    heights = [numpy.diff(place.get_ylim())[0] / numpy.diff(place.get_xlim())[0] for place in axes.flat[: len(shown)]]
+    letters = [f"{letter} = {wall}" for letter, wall in result.json["letters"].items()]
+    names = textwrap.fill(plain(", ".join(letters if 1 < len(letters) <= 12 else [])), 25 * across)
+    figure.supxlabel(names, fontsize=8, color="0.35")
+    tall = min(max(heights, default=1.0), 1.4)
+    figure.set_size_inches(2.1 * across, 0.6 + 0.15 * names.count("\n") + (0.45 + 2.0 * tall) * down)
     return axes.flatten()[: max(1, len(shown))]
 
 
@@ -236,6 +270,7 @@ def comparison(result, ax=None, of="error_state", **style):
     style = style_of(style, markersize=3.5, linewidth=1)
     label = style.pop("label", None)
     ax = new_axes(ax, (6.6, 4.6))
+    ax.set(xscale="log", yscale="log", xlabel="force evaluations")
     runs = result.schemes
     orders = {row["scheme"]: row["stated"] for row in result.measured}
     steps = sorted({order for order in orders.values() if order == order})
@@ -252,12 +287,9 @@ def comparison(result, ax=None, of="error_state", **style):
         }  # fmt: skip
         ax.plot(rows["force_evaluations"], rows[of], **(usual | style))
     if of == "error_state":
-        ax.axhline(result.error, color="0.5", linewidth=0.8, linestyle=":")
-        ax.axhspan(0, result.reference.error, color="0.92", linewidth=0)
-        ax.set_ylim(bottom=result.reference.error / 10)
-    ax.set_xscale("log")
-    ax.set_yscale("log")
-    ax.set_xlabel("force evaluations")
+        ax.axhline(result.error, color="0.5", linewidth=0.8, linestyle=":", label="error wanted")
+        low = result.reference.error
+        ax.axhspan(low / 10, low, color="0.92", linewidth=0, label="error of the reference")
     ax.set_ylabel(of.replace("_", " of the ") if of.startswith("error_") else of)
     legend(ax, fontsize="x-small", loc="center left", bbox_to_anchor=(1, 0.5))
     title(ax, result.system)
@@ -279,9 +311,9 @@ def equilibria(found, ax=None, most=4, **style):
     axes = axes.flatten()
     for number, place in enumerate(axes):
         _equilibrium(found, place, shown[number : number + 1], style, shown)
-        place.set(ylabel="" if number else "y", title="")
+        place.set(ylabel="" if number else "$y$", title="")
     for one, place in zip(shown, axes):
-        place.set_title(f"{one.kind}\nE = {one.energy:.8g}", fontsize="small")
+        place.set_title(f"{one.kind}\n$E$ = {one.energy:.8g}", fontsize=8)
     title_above(figure, found.system)
     return axes
 

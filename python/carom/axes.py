@@ -20,12 +20,14 @@ STYLE = {
     "xtick.minor.width": 0.5, "ytick.minor.width": 0.5, "xtick.major.size": 3, "ytick.major.size": 3,
     "xtick.minor.size": 1.8, "ytick.minor.size": 1.8,
     "legend.frameon": False, "legend.fontsize": 8, "figure.titlesize": 9, "lines.linewidth": 1.0,
+    "axes.formatter.use_mathtext": True,
 }  # fmt: skip
 
 #: How pictures write columns of results.
 SYMBOLS = {
-    "v_parallel": r"$v_\parallel$", "vx": r"$v_x$", "vy": r"$v_y$", "lambda": "λ", "rate": "κ", "hits": "hits",
-    "field.B": "B", "run.t_max": "T", "run.window": "window", "particles.energy": "E", "particles.count": "N",
+    "v_parallel": r"$v_\parallel$", "vx": "$v_x$", "vy": "$v_y$", "lambda": "λ", "rate": "κ", "survival": "$p(T)$",
+    "field.B": "$B$", "run.t_max": "$T$", "particles.energy": "$E$", "particles.count": "$N$",
+    "sali": "SALI", "time": "time of the end",
 }  # fmt: skip
 
 
@@ -60,7 +62,19 @@ def colour_of(number, many):
     """The colour of one of so many things: a list of seven, or a scale if there are more."""
     if many <= len(COLOURS):
         return COLOURS[number % len(COLOURS)]
-    return pyplot().get_cmap("viridis")(0.92 * number / (many - 1))
+    return colour_map()(number / (many - 1))
+
+
+def colour_map():
+    """For lines and dots: without the light end, which is hard to see on white."""
+    from matplotlib.colors import ListedColormap
+
+    return ListedColormap(pyplot().get_cmap("viridis")(numpy.linspace(0.0, 0.92, 256)))
+
+
+def colour_bar(ax, drawn, name, **keywords):
+    """What colours say, in a bar as high as the picture."""
+    ax.figure.colorbar(drawn, cax=ax.inset_axes([1.03, 0.0, 0.035, 1.0]), label=symbol(name), **keywords)
 
 
 def scale_of(values):
@@ -76,18 +90,20 @@ def plain(text):
 
 def symbol(name):
     """A column or a key as the field writes it."""
-    return SYMBOLS.get(name, plain(name))
+    return SYMBOLS.get(name) or (f"${name}$" if len(name) == 1 else plain(name.split(".", 1)[-1].replace("_", " ")))
 
 
-def with_error(value, error):
-    """A value with its error to two digits, both rounded at the same place: 0.34285(54)."""
-    text, power = rounded(value, error)
-    return rf"{text}·10$^{{{power}}}$" if power else text
+def with_error(value, error, digits=3):
+    """A value with its error to two digits, both rounded at the same place, 0.34285(54); a value without an
+    error to so many digits."""
+    known = error and numpy.isfinite(error)
+    text, power = rounded(value, error) if known else (f"{value:.{digits}g}".partition("e")[::2])
+    return text.replace("-", "−") + (f"·10$^{{{int(power)}}}$" if power else "")
 
 
 def title_of(system, width=56):
-    """The title of a system; below it what the command line or a call changed in it."""
-    words, _, changes = plain(system.title or system.name).partition(", with ")
+    """The title of a system; below it what the command line or a call changed in it. Without a title: nothing."""
+    words, _, changes = plain(system.title).partition(", with ")
     return "\n".join(textwrap.fill(line, width) for line in (words, changes and f"with {changes}") if line)
 
 
@@ -97,6 +113,7 @@ def title(ax, system):
 
 def title_above(figure, system):
     """The title of several pictures."""
+    figure.get_layout_engine().set(h_pad=0.08)
     figure.suptitle(title_of(system, max(24, int(11 * figure.get_size_inches()[0]))), fontsize=9)
 
 
@@ -104,12 +121,14 @@ Drawing = TypeVar("Drawing", bound=Callable[..., Any])
 
 
 def picture(function: Drawing) -> Drawing:
-    """A function that draws what it is given; of other things it says which pictures there are."""
+    """A function that draws what it is given, in Carom's look where it makes the axes; of other things it says
+    which pictures there are."""
 
     @functools.wraps(function)
     def draw(thing, *arguments, **keywords):
         try:
-            return function(thing, *arguments, **keywords)
+            with pyplot().rc_context({} if arguments or keywords.get("ax") is not None else STYLE):
+                return function(thing, *arguments, **keywords)
         except AttributeError as error:
             there = getattr(thing, "_pictures", dict)()
             name = function.__name__
@@ -146,5 +165,11 @@ def dots_of(style):
     return dots | ({"s": style["markersize"] ** 2} if "markersize" in style else {})
 
 
-def legend(ax, *entries, **keywords):
-    ax.legend(*entries, **({"frameon": False, "fontsize": 8} | keywords))
+def legend(ax, **keywords):
+    """What lines and points mean: points with errors first, each name once."""
+    from matplotlib.container import Container
+
+    handles, labels = ax.get_legend_handles_labels()
+    entries = dict(zip(labels, handles))
+    first = sorted(entries, key=lambda name: not isinstance(entries[name], Container))
+    ax.legend([entries[name] for name in first], first, **({"frameon": False, "fontsize": 8} | keywords))

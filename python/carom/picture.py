@@ -30,17 +30,25 @@ def draw(source, what=None):
     return carom.plot.result(thing, what=what).figure
 
 
-def animate(source, output):
-    """Saves the film of what is read."""
+def animate(source, output, numbers):
+    """Saves the film of what is read; `numbers`: texts of frames, fps and trail."""
+    given = {}
+    for name, text in numbers.items():
+        if not (text.isascii() and text.isdigit() and 0 < int(text) <= 1_000_000):
+            raise carom.InputError(
+                f"--{name}: '{text}' is no such number", ("command line", 0, 0, f"--{name}"), "a whole number from 1 on"
+            )
+        given[name] = int(text)
     thing = read(source)
     if not isinstance(thing, (carom.System, carom.Run)):
         raise carom.InputError(
             f"{source} has no moving particles", (source, 0, 0, ""), "a system, or the archive of carom run"
         )
-    carom.animate(thing, output, progress=_counter() if sys.stderr.isatty() else None)
+    progress = _counter(given.get("frames", 100)) if sys.stderr.isatty() else None
+    carom.animate(thing, output, progress=progress, **given)
 
 
-def _counter(frames=100):
+def _counter(frames):
     """Shows on a terminal how many frames are made."""
 
     def show(frame):
@@ -70,6 +78,8 @@ def make():
     parser.add_argument("--what", help="which picture, where there are several")
     parser.add_argument("--force", action="store_true", help="replaces a picture that is there")
     parser.add_argument("--dpi", type=float, default=200, help="dots per inch of a .png")
+    for name in ("frames", "fps", "trail"):
+        parser.add_argument(f"--{name}", help="a number of a film")
     given = parser.parse_args()
     film = given.output.endswith(carom.animation.ENDINGS)
     if not film and not given.output.endswith(ENDINGS):
@@ -86,7 +96,8 @@ def make():
 
     matplotlib.use("Agg")
     if film:
-        animate(given.source, into)
+        numbers = {"frames": given.frames, "fps": given.fps, "trail": given.trail}
+        animate(given.source, into, {name: text for name, text in numbers.items() if text is not None})
     else:
         draw(given.source, given.what).savefig(into, dpi=given.dpi)
 

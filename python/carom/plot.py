@@ -13,6 +13,8 @@ import numpy
 from . import _carom
 from .analyses import comparison, convergence, equilibria, lyapunov, orbits, spectrum, sweep
 from .axes import COLOURS, STYLE
+from .axes import colour_bar as _colour_bar
+from .axes import colour_map as _colour_map
 from .axes import colour_of as _colour_of
 from .axes import legend as _legend
 from .axes import dots_of as _dots_of
@@ -123,13 +125,13 @@ def _by_time(lines, ax, style):
     for path in lines:
         points = numpy.stack([path["x"], path["y"]], axis=1)
         pieces = LineCollection(
-            list(numpy.stack([points[:-1], points[1:]], axis=1)), cmap="viridis", zorder=2,
+            list(numpy.stack([points[:-1], points[1:]], axis=1)), cmap=_colour_map(), zorder=2,
             **{key: one for key, one in style.items() if key in ("alpha", "label", "linewidth", "linestyle")},
         )  # fmt: skip
         pieces.set_array(path["t"][:-1])
         pieces.set_clim(0.0, last)
         ax.add_collection(pieces)
-    ax.figure.colorbar(pieces, ax=ax, shrink=0.8).ax.set_title("t", fontsize="medium")
+    _colour_bar(ax, pieces, "t")
 
 
 @_picture
@@ -148,9 +150,9 @@ def energy(run, ax=None, **style):
         _, axes = _subplots(2, 1, figsize=(5.0, 4.2), sharex=True, height_ratios=(2, 1))
         ax, below = axes
         below.plot(rows["t"], rows["total"] - rows["total"][0], **({"color": _WALL} | style | {"linewidth": 0.8}))
-        below.set(xlabel="t", ylabel="change of total")
+        below.set(xlabel="$t$", ylabel="change of total")
     else:
-        ax.set_xlabel("t")
+        ax.set_xlabel("$t$")
     dashes = ("--", ":", "-.", "-") if "color" in style else 4 * ("-",)
     for name, shade, dash in zip(("kinetic", "external", "pair", "total"), (*COLOURS[:3], _WALL), dashes):
         if name in ("kinetic", "total") or rows[name].any():
@@ -172,7 +174,7 @@ def survival(result, ax=None, scale="log", **style):
     seen = points[(points["p"] > 0) & ((points["t"] > 0) | (scale == "linear"))]
     low = numpy.maximum(seen["low"], seen["p"].min() * 1e-3 if len(seen) else 1e-300)
     _with_band(ax, seen["t"], seen["p"], low, seen["high"], style)
-    ax.set(xscale=scale, yscale="log", xlabel="t", ylabel="p(t)")
+    ax.set(xscale=scale, yscale="log", xlabel="$t$", ylabel="$p(t)$")
     _decay(ax, result.fit)
     bottom, top = ax.get_ylim()
     if bottom > 0.1:  # powers of ten say little
@@ -187,6 +189,8 @@ def _with_band(ax, t, values, low, high, style):
     style = _style_of(style, color=COLOURS[0], linewidth=1, markersize=3)
     ax.fill_between(t, low, high, color=style["color"], alpha=0.25, linewidth=0)
     ax.plot(t, values, "o-", **style)
+    if not len(t):
+        ax.annotate("all values are zero", (0.5, 0.5), xycoords="axes fraction", ha="center", color="0.4")
     if "label" in style:
         _legend(ax)
 
@@ -218,7 +222,7 @@ def rate(result, ax=None, scale=None, **style):
         scale = "log" if len(seen) and seen["t"].max() > 30 * seen["t"].min() else "linear"
     low = numpy.maximum(seen["low"], seen["value"].min() * 1e-3 if len(seen) else 1e-300)
     _with_band(ax, seen["t"], seen["value"], low, seen["high"], style)
-    ax.set(xscale=scale, yscale="log", xlabel="t", ylabel="−dp/dt")
+    ax.set(xscale=scale, yscale="log", xlabel="$t$", ylabel="$-dp/dt$")
     _title(ax, result.system)
     return ax
 
@@ -227,7 +231,7 @@ def rate(result, ax=None, scale=None, **style):
 def basins(result, ax=None, colour=None, x=None, y=None, size=None, **style):
     """Starts with per_trajectory, coloured by what becomes of them: "hole", "time" (of the end) or
     "hits"; of exponents also "lambda" or "sali". x and y: columns of its rows, as "x", "y", "vx",
-    "vy"; if not given s and v_parallel of starts on one wall in a grid, else the plane. Starts that
+    "vy"; if not given s and v_parallel of starts on walls, else the plane. Starts that
     lie on no wall have no s and v_parallel: they are left out with a warning, and refused where all do.
     style: alpha and label; with color all starts are dots of one colour."""
     style = _style_of(style)
@@ -235,9 +239,7 @@ def basins(result, ax=None, colour=None, x=None, y=None, size=None, **style):
     if rows is None:
         raise ValueError("no starts are stored: carom.escape(…, per_trajectory=True)")
     if x is None and y is None:
-        at_wall = len(rows) and rows["wall"][0] >= 0 and (rows["wall"] == rows["wall"][0]).all()
-        grid = at_wall and result.system.to_toml().count('kind = "birkhoff"') > 0
-        x, y = ("s", "v_parallel") if grid else ("x", "y")
+        x, y = ("s", "v_parallel") if len(rows) and (rows["wall"] >= 0).all() else ("x", "y")
     x, y = x or "x", y or "y"
     in_plane = (x, y) == ("x", "y")
     known = numpy.isfinite(rows[x]) & numpy.isfinite(rows[y])
@@ -250,36 +252,42 @@ def basins(result, ax=None, colour=None, x=None, y=None, size=None, **style):
     colour = colour or ("hole" if len(result.system.holes) > 1 else "time")
     made = ax is None
     ax = _new_axes(ax)
+    across, up, full = rows[x], rows[y], 1.0
     if in_plane:
         table(result.system, ax=ax, names=False, levels=False, directions=False, starts=0)
-    from matplotlib.colors import ListedColormap, LogNorm, Normalize
+        full = min(1.0, float(numpy.divide(*numpy.ptp(ax.dataLim.get_points(), axis=0)[::-1])))
+    elif x == "s":
+        across = _along_walls(ax, result.system, rows)
+    from matplotlib.colors import BoundaryNorm, ListedColormap, LogNorm, Normalize
 
-    size = size or float(numpy.clip(6e4 / max(1, len(rows)), 0.1, 20.0))
+    size = size or float(numpy.clip(6e4 * full / max(1, len(rows)), 0.1, 20.0))
     if "color" in style:
         dots = {"s": size, "zorder": 1, "rasterized": len(rows) > 5000}
-        ax.scatter(rows[x], rows[y], **(dots | _dots_of(style)))
+        ax.scatter(across, up, **(dots | _dots_of(style)))
         if "label" in style:
             _legend(ax)
     elif colour == "hole":
         shades = ["0.8", *(COLOURS[i % len(COLOURS)] for i in range(len(result.system.holes)))]
         norm = Normalize(-1.5, len(shades) - 1.5)
-        _cover(ax, rows[x], rows[y], rows["hole"], norm, ListedColormap(shades), size, style)
+        _cover(ax, across, up, rows["hole"], norm, ListedColormap(shades), size, style)
         for number, name in enumerate(["none", *result.system.holes], -1):
             if (rows["hole"] == number).any():
                 ax.scatter([], [], color=shades[number + 1], s=20, label=_plain(name))
         _legend(ax, fontsize="small", loc="center left", bbox_to_anchor=(1.0, 0.5))
     else:
-        rows = rows[numpy.isfinite(rows[colour])]
-        values = rows[colour]
+        known = numpy.isfinite(rows[colour])
+        values = rows[colour][known]
         seen = values[values > 0] if colour != "lambda" else values[:0]
         wide = len(seen) and seen.max() > 20 * seen.min()
         least = float(numpy.quantile(seen, 0.005)) if wide else 0.0  # few starts need no share of the colours
         norm = LogNorm(least, seen.max()) if wide else Normalize()
+        bar = {"extend": "min" if wide and seen.min() < least else "neither"}
+        if colour == "hits" and len(values) and numpy.ptp(values) < 12:
+            bar = {"ticks": numpy.arange(values.min(), values.max() + 1)}
+            norm = BoundaryNorm(numpy.arange(values.min() - 0.5, values.max() + 1), 256)
         values = numpy.maximum(values, least) if wide else values
-        below = "min" if wide and seen.min() < least else "neither"
-        drawn = _cover(ax, rows[x], rows[y], values, norm, "viridis", size, style)
-        label = {"time": "time of the end", "hits": "hits", "lambda": "λ", "sali": "SALI"}[colour]
-        ax.figure.colorbar(drawn, ax=ax, label=label, shrink=0.9, extend=below)
+        drawn = _cover(ax, across[known], up[known], values, norm, _colour_map(), size, style)
+        _colour_bar(ax, drawn, colour, **bar)
     _title(ax, result.system)
     if not in_plane:
         ax.set(xlabel=_symbol(x), ylabel=_symbol(y))
@@ -361,18 +369,8 @@ def section(result, ax=None, x=None, y=None, **style):
     points = result.points
     at_walls = len(points) == 0 or (points["wall"] >= 0).all()
     if x is None and at_walls:
-        walls = result.system._table()["walls"]
-        starts = numpy.concatenate([[0.0], numpy.cumsum([wall["length"] for wall in walls])])
-        across = points["s"] + starts[points["wall"]] if len(points) else points["s"]
+        across = _along_walls(ax, result.system, points)
         up, label_x, label_y = points["v_parallel"], "s", "v_parallel"
-        if 1 < len(walls) <= 12:
-            for edge in starts[1:-1]:
-                ax.axvline(edge, color="0.8", linewidth=0.6, zorder=0)
-            top = ax.secondary_xaxis("top")
-            top.set_xticks((starts[:-1] + starts[1:]) / 2, [_plain(wall["name"]) for wall in walls])
-            top.tick_params(length=0, labelsize="x-small")
-        met = numpy.unique(points["wall"]) if len(points) else [0, len(walls) - 1]
-        ax.set_xlim(starts[met[0]], starts[met[-1] + 1])
     else:
         along = points["s"].any() or points["v_parallel"].any()
         if x is None and y is None and along:  # on a line x = c or y = c the place and the velocity along it
@@ -390,6 +388,24 @@ def section(result, ax=None, x=None, y=None, **style):
     ax.set(xlabel=_symbol(label_x), ylabel=_symbol(label_y))
     _title(ax, result.system)
     return ax
+
+
+def _along_walls(ax, system, rows):
+    """Where rows lie along the walls, which follow each other from the first to the last that has some, with their
+    names above."""
+    walls = system._table()["walls"]
+    names = 1 < len(walls) <= 12
+    first, last = (rows["wall"].min(), rows["wall"].max()) if len(rows) else (0, len(walls) - 1)
+    walls = walls[first : last + 1]
+    edges = numpy.concatenate([[0.0], numpy.cumsum([wall["length"] for wall in walls])])
+    if names:
+        for edge in edges[1:-1]:
+            ax.axvline(edge, color="0.8", linewidth=0.6, zorder=0)
+        top = ax.secondary_xaxis("top")
+        top.set_xticks((edges[:-1] + edges[1:]) / 2, [_plain(wall["name"]) for wall in walls])
+        top.tick_params(length=0, labelsize=7)
+    ax.set_xlim(0.0, edges[-1])
+    return rows["s"] + edges[rows["wall"].astype(int) - first]
 
 
 @_picture

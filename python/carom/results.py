@@ -192,12 +192,13 @@ class Lyapunov(Result, archive="lyapunov"):
     )
 
     def _pictures(self):
-        more = {"exponents": plot.exponents, "times": plot.times} if self.per_trajectory is not None else {}
+        rows = self.per_trajectory
+        more = {} if rows is None else {"exponents": plot.exponents}
+        more |= {"times": plot.times} if rows is not None and numpy.ptp(rows["time"]) > 0 else {}
         whole = {"spectrum": plot.spectrum} if "spectrum" in self._json else {}
-        pictures = {"lyapunov": plot.lyapunov, "convergence": plot.convergence}
-        if self.orbits == 1:
-            pictures = dict(reversed(pictures.items()))
-        return pictures | whole | more
+        pictures = {"lyapunov": plot.lyapunov} if self._json["distribution"] else {}
+        growing = {"convergence": plot.convergence}
+        return (growing | pictures if self.orbits == 1 else pictures | growing) | whole | more
 
     def _summary(self):
         largest = self.lambda_[0] if self.lambda_ is not None else None

@@ -3,7 +3,7 @@
 import numpy
 
 from . import _carom
-from .axes import COLOURS, legend, new_axes, picture, plain, style_of, title
+from .axes import COLOURS, legend, new_axes, picture, plain, style_of, title, with_error
 
 WALL = "#222222"
 _MATTER = "#e6e4df"  # obstacles
@@ -24,34 +24,42 @@ def table(
     ax = new_axes(ax)
     loaded = system._loaded("table")
     walls = _carom.walls(loaded)
-    style = style_of(style, color=WALL, linewidth=1.2)
+    style = style_of(style, color=WALL, linewidth=1.2 if len(cells) < 6 else 0.8)
     _walls(loaded, walls, ax, list(cells), style)
     if "label" in style:
         legend(ax)
-    if levels:
-        draw_levels(loaded, ax)
+    if levels and not ax.has_data():  # the open plane
+        reach = 1.3 * max(1.0, float(numpy.abs(_carom.starts(loaded, 20)[:, :2]).max(initial=1.0)))
+        ax.update_datalim([(-reach, -reach), (reach, reach)])
     if starts is None:
         starts = min(_carom.listed(loaded), 100)
     if starts:
         _starts(_carom.starts(loaded, starts), ax)
-    ax.set(aspect="equal", xlabel="x", ylabel="y")
+    ax.set(aspect="equal", xlabel="$x$", ylabel="$y$")
+    ax.locator_params(steps=[1, 2, 5, 10])
     title(ax, system)
-    make_room(ax, 0.09 if names else 0.04)
+    make_room(ax, 0.06)
+    if levels:
+        draw_levels(loaded, ax)
+    if field:
+        _field(loaded, ax)
     if made:
         fit(ax)
     if directions and len(walls) <= 12:
-        for _, pieces, _ in walls:
+        for _, pieces, *_ in walls:
             if pieces:
                 arrow(ax, max(pieces, key=len), style["color"])
-    if field:
-        _field(loaded, ax)
     if names:
-        labels = [(h, *_middle(piece), COLOURS[1]) for _, _, hs in walls for h, piece in hs]
+        labels = [(h, *_middle(piece), COLOURS[1]) for _, _, hs, _ in walls for h, piece in hs]
         if len(walls) <= 12:
-            for name, pieces, _ in walls:
+            for name, pieces, *_ in walls:
                 if pieces:
                     labels.append((name, *_middle(max(pieces, key=len)), "0.4"))
-        _labels(ax, labels)
+        texts = _labels(ax, labels)
+        for _ in texts[:2]:  # twice: names are wider in a picture that shows more
+            _include(ax, texts)
+            if made:
+                fit(ax)
     return ax
 
 
@@ -61,7 +69,7 @@ def _walls(loaded, walls, ax, cells, style):
     from matplotlib.path import Path
 
     edges = _carom.cell(loaded)
-    loops = _loops([piece for _, pieces, holes in walls for piece in (*pieces, *(p for _, p in holes))])
+    loops = _loops([piece for _, pieces, holes, _ in walls for piece in (*pieces, *(p for _, p in holes))])
     around = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)] if edges else [(0, 0)]
     near = {(a + i, b + j) for a, b in cells for i, j in around}
     shown = None
@@ -86,11 +94,14 @@ def _walls(loaded, walls, ax, cells, style):
             if not shown or _touch(loop + shift, reach):
                 path = Path(loop + shift, closed=True)
                 drawn.append(ax.add_patch(PathPatch(path, linewidth=0, zorder=0.3, facecolor=_REGION)))
-        for _, pieces, holes in walls:
+        for _, pieces, holes, entered in walls:
             for piece in pieces:
                 if shown and not _touch(piece + shift, reach):
                     continue
-                drawn += ax.plot(*(piece + shift).T, **({"zorder": 3, "solid_capstyle": "round"} | style))
+                usual = {"zorder": 3, "solid_capstyle": "round"} | style
+                if entered:  # no wall: particles pass
+                    usual |= {"linewidth": 0.5 * style["linewidth"], "linestyle": (0, (6, 1.5))}
+                drawn += ax.plot(*(piece + shift).T, **usual)
                 style = {key: one for key, one in style.items() if key != "label"}
             for _, piece in holes:
                 hole = {"color": COLOURS[1], "linewidth": 1.4, "linestyle": (0, (2, 1.5))}
@@ -149,10 +160,10 @@ def _middle(piece):
 
 def make_room(ax, share):
     """Room around what is drawn, equally wide on all sides."""
-    if not ax.has_data() or not numpy.isfinite(ax.dataLim.get_points()).all():
+    if not numpy.isfinite(ax.dataLim.get_points()).all():
         return
     (left, low), (right, high) = ax.dataLim.get_points()
-    room = share * max(right - left, high - low)
+    room = share * max(right - left, high - low) or 0.5
     ax.set(xlim=(left - room, right + room), ylim=(low - room, high + room))
 
 
@@ -160,7 +171,7 @@ def fit(ax):
     """A figure as high as its table."""
     width, height = numpy.diff(ax.get_xlim())[0], numpy.diff(ax.get_ylim())[0]
     lines = ax.get_title().count("\n")
-    ax.figure.set_size_inches(5.0, float(numpy.clip(0.9 + 0.15 * lines + 4.2 * height / width, 1.9, 6.5)))
+    ax.figure.set_size_inches(5.0, float(numpy.clip(0.9 + 0.15 * lines + 4.2 * height / width, 1.4, 6.5)))
 
 
 def arrow(ax, points, colour, share=0.75, size=11):
@@ -177,24 +188,21 @@ def _field(loaded, ax):
         return
     sense = "clockwise" if omegas[0] > 0 else "counter-clockwise"
     sense = sense if omegas[0] * omegas[-1] > 0 else "both ways"
-    text = f"ω = {omegas[0]:.4g}" + (f" … {omegas[-1]:.4g}" if len(omegas) > 1 else "")
-    text += f", {sense}"
+    text = f"ω = {' … '.join(with_error(omega, None, 4) for omega in omegas[:: max(1, len(omegas) - 1)])}, {sense}"
     speed = float(numpy.hypot(*_carom.starts(loaded, 1)[0, 2:]))
     radius = speed / abs(omegas[0])
     low, high = ax.get_ylim()
-    if len(omegas) == 1 and numpy.isfinite(radius) and 2 * radius < 0.5 * (high - low):
-        right = ax.get_xlim()[1]
-        circle = {"fill": False, "edgecolor": "0.45", "linewidth": 0.8, "clip_on": False}
+    same = omegas[-1] in (omegas[0], -omegas[0])
+    text += f", Larmor radius {with_error(radius, None)}" if same else ""
+    if same and numpy.isfinite(radius) and 2 * radius < 0.5 * (high - low):
+        from matplotlib.offsetbox import AnchoredOffsetbox, AuxTransformBox
         from matplotlib.patches import Circle
 
-        drawn = Circle((right + 1.15 * radius, low + 1.15 * radius), radius, zorder=3, **circle)
-        ax.add_patch(drawn)
-    elif len(omegas) == 1:
-        text += f", Larmor radius {radius:.3g}"
-    ax.annotate(
-        text, (1, 0), xycoords="axes fraction", xytext=(0, -36),
-        textcoords="offset points", fontsize="x-small", ha="right", va="top", color="0.35",
-    )  # fmt: skip
+        box = AuxTransformBox(ax.transData)
+        box.add_artist(Circle((0.0, 0.0), radius, fill=False, edgecolor="0.45", linewidth=0.8))
+        beside = {"bbox_to_anchor": (1.01, 0.0), "bbox_transform": ax.transAxes, "pad": 0.0, "frameon": False}
+        ax.add_artist(AnchoredOffsetbox("lower left", child=box, **beside))
+    ax.set_title("\n".join(filter(None, (ax.get_title(), text))), fontsize=9)
 
 
 def _starts(rows, ax):
@@ -206,21 +214,33 @@ def _starts(rows, ax):
 
 def _labels(ax, labels):
     """Names beside their walls, outside; where that covers another name inside, and where that does too nothing."""
-    labels = labels[:40]
-    if not labels:
-        return
     figure = ax.get_figure()
     figure.draw_without_rendering()
     renderer = figure.canvas.get_renderer()
-    kept = []
-    for name, at, away, colour in labels:
+    kept, texts = [], []
+    for name, at, away, colour in labels[:40]:
         for side in (1, -1):
             text = _label(ax, name, at, side * away, colour)
             box = text.get_window_extent(renderer).expanded(1.05, 1.1)
             if not any(box.overlaps(other) for other in kept):
                 kept.append(box)
+                texts.append(text)
                 break
             text.remove()
+    return texts
+
+
+def _include(ax, texts):
+    """No name lies on the axes: the picture becomes larger by what is outside, and a little, since it shrinks."""
+    ax.figure.draw_without_rendering()
+    corners = numpy.array([text.get_window_extent().padded(4).get_points() for text in texts])
+    inside = ax.transData.inverted()
+    (left, low), (right, high) = inside.transform([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)])
+    (a, b), (c, d) = ax.get_xlim(), ax.get_ylim()
+    ax.set(
+        xlim=(a - 1.2 * max(0.0, a - left), b + 1.2 * max(0.0, right - b)),
+        ylim=(c - 1.2 * max(0.0, c - low), d + 1.2 * max(0.0, high - d)),
+    )
 
 
 def _label(ax, name, at, away, colour):
@@ -236,14 +256,12 @@ def draw_levels(loaded, ax):
     """Level lines of the potential energy."""
     low_x, high_x = ax.get_xlim()
     low_y, high_y = ax.get_ylim()
-    if not ax.has_data():  # the open plane
-        low_x, high_x, low_y, high_y = -2.0, 2.0, -2.0, 2.0
     xs, ys = numpy.linspace(low_x, high_x, 201), numpy.linspace(low_y, high_y, 201)
     energies = _carom.potential(loaded, list(xs), list(ys))
     if energies is None or not numpy.isfinite(energies).any():
         return
     finite = energies[numpy.isfinite(energies)]
-    levels = numpy.unique(numpy.quantile(finite, numpy.linspace(0.05, 0.95, 11)))
+    levels = numpy.unique(numpy.quantile(finite, numpy.linspace(0.05, 0.95, 8)))
     if len(levels) > 1:
-        ax.contour(xs, ys, energies, levels=levels, colors="0.7", linewidths=0.6, zorder=0.5)
+        ax.contour(xs, ys, energies, levels=levels, colors="0.75", linewidths=0.5, zorder=0.5)
         ax.set(xlim=(low_x, high_x), ylim=(low_y, high_y))

@@ -1,6 +1,8 @@
 """Pictures of transport: mean square displacements, correlations of the velocity, free paths, returns."""
 
-from .axes import COLOURS, legend, new_axes, picture, style_of, subplots, title, title_above, with_error
+import numpy
+
+from .axes import COLOURS, legend, new_axes, picture, plain, style_of, subplots, title, title_above, with_error
 
 
 @picture
@@ -10,21 +12,19 @@ def diffusion(result, ax=None, **style):
     ax = new_axes(ax)
     points = result.msd
     seen = points[(points["t"] > 0) & (points["value"] > 0)]
+    label = "MSD"
+    if result.exponent is not None:
+        label += f", exponent {with_error(result.exponent.value, result.exponent.stderr)}"
     ax.errorbar(
-        seen["t"], seen["value"], yerr=seen["stderr"], fmt="o",
-        **style_of(style, markersize=3, linewidth=1, color=COLOURS[0], label="MSD"),
+        seen["t"], seen["value"], yerr=numpy.nan_to_num(seen["stderr"]), fmt="o",
+        **style_of(style, markersize=3, linewidth=1, color=COLOURS[0], label=label),
     )
     if result.D is not None and "note" not in result.json:
         ax.plot(
             seen["t"], 4 * result.D.value * seen["t"], color=COLOURS[1], linewidth=1,
-            label=f"4 D t, D = {with_error(result.D.value, result.D.stderr)}",
+            label=f"$4Dt$, $D$ = {with_error(result.D.value, result.D.stderr)}",
         )
-    if result.exponent is not None:
-        ax.plot([], [], " ", label=f"exponent {with_error(result.exponent.value, result.exponent.stderr)}")
-    ax.set_xscale("log")
-    ax.set_yscale("log")
-    ax.set_xlabel("t")
-    ax.set_ylabel("⟨|x(t) − x(0)|²⟩")
+    ax.set(xscale="log", yscale="log", xlabel="$t$", ylabel=r"$\langle|\mathbf{x}(t)-\mathbf{x}(0)|^2\rangle$")
     legend(ax, fontsize="small")
     title(ax, result.system)
     return ax
@@ -34,15 +34,15 @@ def diffusion(result, ax=None, **style):
 def correlation(result, ax=None, **style):
     """The velocity autocorrelation against t, and D(t) of Green and Kubo beside it."""
     if ax is not None:
-        return _against_time(ax, result, result.correlation, "⟨v(t)·v(0)⟩", style)
+        return _against_time(ax, result, result.correlation, r"$\langle\mathbf{v}(t)\cdot\mathbf{v}(0)\rangle$", style)
     figure, axes = subplots(1, 2, figsize=(8.0, 3.6))
     correlation(result, ax=axes[0], **style).set_title("")
-    _against_time(axes[1], result, result.green_kubo, "½ ∫ ⟨v(t′)·v(0)⟩ dt′ from 0 to t", style).set_title("")
+    _against_time(axes[1], result, result.green_kubo, r"$\frac{1}{2}\int_0^t\langle\mathbf{v}(t')\cdot\mathbf{v}(0)\rangle\,\mathrm{d}t'$", style).set_title("")
     if result.D is not None and "note" not in result.json:
         D = result.D
         axes[1].axhspan(D.value - D.stderr, D.value + D.stderr, color=COLOURS[1], alpha=0.3, linewidth=0)
-        axes[1].axhline(D.value, color=COLOURS[1], linewidth=1, label=f"D of the MSD, {with_error(D.value, D.stderr)}")
-        legend(axes[1], fontsize="small")
+        axes[1].axhline(D.value, color=COLOURS[1], linewidth=1, label=f"$D$ of the MSD, {with_error(D.value, D.stderr)}")
+        legend(axes[1], loc="upper left")
     title_above(figure, result.system)
     return axes
 
@@ -52,12 +52,10 @@ def _against_time(ax, result, points, label, style):
     seen = points[points["t"] > 0]
     ax.axhline(0.0, color="0.8", linewidth=0.6, zorder=0)
     style = style_of(style, markersize=3, linewidth=1, color=COLOURS[0])
-    ax.errorbar(seen["t"], seen["value"], yerr=seen["stderr"], fmt="o", **style)
+    ax.errorbar(seen["t"], seen["value"], yerr=numpy.nan_to_num(seen["stderr"]), fmt="o", **style)
     if "label" in style:
         legend(ax)
-    ax.set_xscale("log")
-    ax.set_xlabel("t")
-    ax.set_ylabel(label)
+    ax.set(xscale="log", xlabel="$t$", ylabel=label)
     title(ax, result.system)
     return ax
 
@@ -77,8 +75,7 @@ def free_paths(result, ax=None, **style):
             seen["from"], seen["longer"], yerr=seen["longer_stderr"], fmt="o",
             **({"color": colour, "label": before + label} | hollow | style),
         )
-    ax.set_xscale("log")
-    ax.set_yscale("log")
+    ax.set(xscale="log", yscale="log")
     # What the corridors say of long flights from uniform starts: t P(no hit until t) at speed 1.
     if "flight_tail" in result.json:
         left, right = ax.get_xlim()
@@ -89,10 +86,9 @@ def free_paths(result, ax=None, **style):
             lengths = [max(left, 3 * paths.mean.value), right]
             ax.plot(
                 lengths, [c / one**power for one in lengths], color=colour, linewidth=1,
-                label=f"{c:.3g} / l{'²' if power == 2 else ''}, from the corridors",
+                label=rf"{with_error(c, None)} / $\ell{'^2' if power == 2 else ''}$, from the corridors",
             )
-    ax.set_xlabel("l")
-    ax.set_ylabel("share of flights of l or longer")
+    ax.set(xlabel=r"$\ell$", ylabel=r"share of flights of $\ell$ or longer")
     legend(ax, fontsize="small")
     title(ax, result.system)
     return ax
@@ -109,6 +105,6 @@ def returns(result, ax=None, **style):
     )
     if "label" in style:
         legend(ax)
-    ax.set(xscale="log", yscale="log", xlabel="t", ylabel=f"share of returns to {result.wall} after t or more")
+    ax.set(xscale="log", yscale="log", xlabel="$t$", ylabel=f"share of returns to {plain(result.wall)} after $t$ or more")
     title(ax, result.system)
     return ax

@@ -60,7 +60,8 @@ std::vector<Vector> piece(const geometry::Curve& curve, double u, double v) {
   return points;
 }
 
-// Of every wall: its name, its pieces, and its holes with their names.
+// Of every wall: its name, its pieces, its holes with their names, and whether it is the edge of a
+// region.
 py::list walls(const Loaded& loaded) {
   const Table& table = *loaded.system().table;
   py::list all;
@@ -75,7 +76,7 @@ py::list walls(const Loaded& loaded) {
       from = hole.to;
     }
     if (from < last) pieces.append(pairs(piece(wall.curve, from, last)));
-    all.append(py::make_tuple(wall.name, pieces, holes));
+    all.append(py::make_tuple(wall.name, pieces, holes, wall.twin >= 0));
   }
   return all;
 }
@@ -225,9 +226,15 @@ py::array_t<double> frames(const Loaded& loaded, const std::vector<std::size_t>&
   return array;
 }
 
+// Of each particle outside, and in each region.
 std::vector<double> omegas(const Loaded& loaded) {
   std::vector<double> all;
-  for (const Particle& p : loaded.system().particles) all.push_back(p.omega);
+  const Table& table = *loaded.system().table;
+  for (const Particle& p : loaded.system().particles) {
+    all.push_back(p.omega);
+    for (std::size_t r = 0; r < table.regions.size(); ++r)
+      all.push_back(in_region(table, p, static_cast<int>(r)).omega);
+  }
   return all;
 }
 

@@ -238,11 +238,15 @@ void define_commands(CLI::App& app, Options& o) {
       "  carom animate lorentz-triangular -o lorentz.gif\n"
       "  carom animate wigner -o wigner.mp4\n"
       "  carom animate orbit.h5 -o orbit.gif     an archive of carom run\n"
+      "  carom animate stadium --frames 400 --trail 400\n"
       "\n"
       "Without -o the film is NAME.gif in this folder. A run is shown until its hundredth hit, a "
       "system for twenty mean flights.\n"
       "It needs Python with matplotlib; .mp4 needs ffmpeg as well.")
       .system("SOURCE", "Archive of carom run, TOML file or built-in name")
+      .text("--frames", o.frames, "N", "Number of frames (default 100)")
+      .text("--fps", o.fps, "N", "Frames a second (default 20)")
+      .text("--trail", o.trail, "N", "Frames for which a way stays visible (default 10)")
       .output("FILM", "A name ending in .gif or .mp4");
   Command(app, o, look, "page", "Open the page that computes in a browser",
           "Examples:\n"

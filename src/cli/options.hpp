@@ -41,7 +41,8 @@ struct Options {
   std::vector<std::string> files;                                  ///< of carom merge
   std::string shard, block, checkpoint;                            ///< of carom escape
   std::string output, threads, trajectory, resume, scale;
-  std::string what;  ///< of carom plot
+  std::string what;                ///< of carom plot
+  std::string frames, fps, trail;  ///< of carom animate
   std::string engine = "auto", isa = "auto", precision = "double", digits;
   std::string schemes, steps, tolerances, error, comparison_time;  ///< of carom compare
   std::string hits, tries;                                         ///< of carom orbit

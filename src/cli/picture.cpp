@@ -178,12 +178,12 @@ void refuse_other_endings(const std::string& file) {
 }
 
 int draw(const std::string& source, const std::string& picture, bool force,
-         const std::string& what) {
+         const std::vector<std::string>& options) {
   refuse_existing(picture, force);
   const TemporaryFolder folder(picture);
   const std::string made = folder.file("picture" + ending_of(picture));
   std::vector<std::string> words{"--output=" + picture, "--into=" + made};
-  if (!what.empty()) words.push_back("--what=" + what);
+  words.insert(words.end(), options.begin(), options.end());
   words.insert(words.end(), {"--", source});
   const int status = call_module(picture, words);
   if (status != done) return status;

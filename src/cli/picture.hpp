@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/options.hpp"
 #include "cli/temporary_folder.hpp"
@@ -14,11 +15,11 @@ bool is_picture(const std::string& file);
 /// Throws InputError where it does not.
 void refuse_other_endings(const std::string& file);
 
-/// The picture of an archive or a system; `what`: which one, "": the first. Returns the exit
+/// The picture of an archive or a system; `words`: options of carom.picture. Returns the exit
 /// status. Throws InputError where Python, the module or matplotlib is not there, and says which
 /// package it is in.
 int draw(const std::string& source, const std::string& picture, bool force,
-         const std::string& what = {});
+         const std::vector<std::string>& words = {});
 
 /// A command that is asked for a picture writes an archive aside, which is drawn when it is done.
 class PictureOfResult {

@@ -1,17 +1,20 @@
 # Light in an elliptic cavity of index 2, and where late light leaves to.
-import carom
-import matplotlib.pyplot as plt
+import matplotlib.pyplot as pyplot
 import numpy
+
+import carom
+
+pyplot.style.use(carom.plot.STYLE)
 
 cavity = carom.plane().obstacle("ellipse", name="cavity", center=(0, 0), a=1.2, b=1).region("cavity", index=2, reflection="s")
 inside = {"kind": "rectangle", "min": (-0.7, -0.7), "max": (0.7, 0.7)}
-light = carom.escape(cavity, initial=inside, trajectories=200_000, t_max=100, per_trajectory=True).per_trajectory
+light = numpy.concatenate(list(carom.trajectories(cavity, initial=inside, trajectories=200_000, t_max=100)))
 late = light[(light["time"] > 10) & (light["time"] < 100)]
-count, edges = numpy.histogram(numpy.arctan2(late["vy"], late["vx"]), bins=90, range=(-numpy.pi, numpy.pi))
+count, edges = numpy.histogram(numpy.arctan2(late["end_vy"], late["end_vx"]), bins=90, range=(-numpy.pi, numpy.pi))
 
-figure = plt.figure(figsize=(8, 3.6), layout="constrained")
-carom.run(cavity, title="", position=(0.9, 0.1), velocity=(0.2, 0.98), collisions=20).plot(ax=figure.add_subplot(1, 2, 1))
+figure = pyplot.figure(figsize=(8, 3.6), layout="constrained")
+carom.run(cavity, position=(0.9, 0.1), velocity=(0.2, 0.98), collisions=20).plot(ax=figure.add_subplot(1, 2, 1))
 polar = figure.add_subplot(1, 2, 2, projection="polar")
 polar.fill((edges[:-1] + edges[1:]) / 2, count, alpha=0.5)
-polar.set(yticks=[], title=f"{len(late)} of {len(light)} leave after t = 10")
+polar.set(yticks=[], title=f"Directions of the {len(late) / len(light):.0%} that leave after $t$ = 10")
 figure.savefig("microcavity.png")

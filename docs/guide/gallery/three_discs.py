@@ -3,6 +3,7 @@ import matplotlib.pyplot as pyplot
 
 import carom
 
+pyplot.style.use(carom.plot.STYLE)
 system = carom.system("three-disc").with_(
     initial={"kind": "line", "from": [2.2, 2], "to": [3.8, 2], "angle": "pi/2"}
 )

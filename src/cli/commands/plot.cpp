@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <utility>
 
 #include "carom/base/error.hpp"
 #include "carom_version.hpp"
@@ -15,7 +16,13 @@ namespace {
 
 // Draws, and says what was made.
 int drawn(const Options& options, const char* kind, const std::string& file) {
-  const int status = draw(options.system, file, options.force, options.what);
+  std::vector<std::string> words;
+  for (const auto& [name, text] : {std::pair{"what", &options.what},
+                                   {"frames", &options.frames},
+                                   {"fps", &options.fps},
+                                   {"trail", &options.trail}})
+    if (!text->empty()) words.push_back(fmt::format("--{}={}", name, *text));
+  const int status = draw(options.system, file, options.force, words);
   if (status != done) return status;
   if (!options.json) {
     print(fmt::format("{}: {}\n", kind, file));
