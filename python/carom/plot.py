@@ -175,7 +175,7 @@ def survival(result, ax=None, scale="log", **style):
     low = numpy.maximum(seen["low"], seen["p"].min() * 1e-3 if len(seen) else 1e-300)
     _with_band(ax, seen["t"], seen["p"], low, seen["high"], style)
     ax.set(xscale=scale, yscale="log", xlabel="$t$", ylabel="$p(t)$")
-    _decay(ax, result.fit)
+    _decay(ax, result.fit, style)
     bottom, top = ax.get_ylim()
     if bottom > 0.1:  # powers of ten say little
         ax.set_ylim(min(bottom, 0.5), max(top, 1.1), auto=True)
@@ -195,8 +195,8 @@ def _with_band(ax, t, values, low, high, style):
         _legend(ax)
 
 
-def _decay(ax, fit):
-    """The line of the likeliest decay."""
+def _decay(ax, fit, style):
+    """The line of the likeliest decay; beside curves that have a colour it is black, and begins with their label."""
     if fit.model is None:
         return
     t = numpy.linspace(*fit.window, 200)
@@ -207,7 +207,10 @@ def _decay(ax, fit):
     kind = f"local slope, {fit.model}" if fit.local_slope else fit.model
     # In short lines, so that it finds a place beside the curve.
     label = f"{kind}\n{name} = {_with_error(value, fit.stderr)}" + ("" if fit.decided else ", undecided")
-    ax.plot(t, p, color=COLOURS[1], linewidth=1.5, zorder=3, label=label)
+    style = _style_of(style)
+    label = f"{style['label']}: {label}" if "label" in style else label
+    colour, dashes = ("0.1", "--") if "color" in style else (COLOURS[1], "-")
+    ax.plot(t, p, dashes, color=colour, linewidth=1.5, zorder=3, label=label)
     _legend(ax, fontsize="x-small")
 
 
@@ -353,7 +356,7 @@ def splitting(result, ax=None, **style):
     rows = [row for row in result.json[name] if row["value"]]
     places, values, low, high = ([row[key] for row in rows] for key in (x, "value", "low", "high"))
     _with_band(ax, places, values, low, high, style)
-    _decay(ax, result.fit)
+    _decay(ax, result.fit, style)
     ax.set(yscale="log", xlabel="hits" if x == "n" else x, ylabel=f"p({x})")
     _title(ax, result.system)
     return ax

@@ -196,6 +196,12 @@ def test_the_legend_of_a_decay_covers_no_curve():
             assert result.fit.model and not any(box.contains(*place) for place in ax.transData.transform(curve))
 
 
+def test_decays_beside_curves_of_a_colour_have_their_label():
+    result = carom.escape("circle", trajectories=20_000)
+    line = carom.plot.survival(result, color="red", label="mine").get_lines()[-1]
+    assert result.fit.model and line.get_label().startswith("mine: ") and line.get_color() != "red"
+
+
 def test_a_share_that_stays_has_plain_numbers():
     ax = carom.plot.survival(carom.escape("sinai", trajectories=100, t_max=5))
     assert ax.get_ylim()[0] <= 0.5
