@@ -89,8 +89,10 @@ def plain(text):
 
 
 def symbol(name):
-    """A column or a key as the field writes it."""
-    return SYMBOLS.get(name) or (f"${name}$" if len(name) == 1 else plain(name.split(".", 1)[-1].replace("_", " ")))
+    """A column or a key as the field writes it; others by their words, "hole width"."""
+    if "." in name and name not in SYMBOLS:
+        name = " ".join(name.replace("[0]", "").replace("parameters.", "").split(".")[1:]).replace("_", " ")
+    return SYMBOLS.get(name) or (f"${name}$" if len(name) == 1 else plain(name))
 
 
 def with_error(value, error, digits=3):

@@ -172,7 +172,7 @@ void define_commands(CLI::App& app, Options& o) {
       .text("--velocity", o.overrides.velocity, "U,V",
             "Velocity of the start; only its direction counts where a speed is set")
       .text("--trajectory", o.trajectory, "I", "Whose start is taken (default 0)")
-      .text("--schemes", o.schemes, "A,B,…|all", "Schemes (default: a dozen, arkode and cvode)")
+      .text("--schemes", o.schemes, "A,B|all", "Schemes (default: a dozen, arkode and cvode)")
       .text("--steps", o.steps, "STEPS",
             "Steps, a,b,c or log:from:to:count (default: ten, halved from one to the next)")
       .text("--tolerances", o.tolerances, "TOLERANCES",

@@ -7,7 +7,7 @@ import numpy
 import pytest
 
 import carom
-from carom.axes import with_error
+from carom.axes import symbol, with_error
 
 
 @pytest.fixture(autouse=True)
@@ -310,3 +310,12 @@ def test_each_orbit_has_a_panel_with_its_word():
     panels = carom.orbits("three-disc", hits=4).plot()
     assert [ax.get_title().split("\n")[0] for ax in panels] == ["12", "123", "1213"]
     assert panels.figure is panels[0].figure
+
+
+@pytest.mark.parametrize(
+    ("key", "words"),
+    [("field.B", symbol("B")), ("table.stem_width", "stem width"), ("table.hole[0].width", "hole width"),
+     ("table.hole[1].width", "hole[1] width"), ("potential[0].parameters.k", "$k$"), ("s", "$s$")],
+)  # fmt: skip
+def test_keys_on_axes_are_words(key, words):
+    assert symbol(key) == words

@@ -65,10 +65,9 @@ std::string head_text(const System& system, const Comparison& result) {
 }
 
 std::string schemes_table(const Comparison& result) {
-  std::vector<Column> columns{{"\nscheme", {}, true},   {"sta-\nted", {}},
-                              {"order\nmeasured", {}},  {"step or\ntolerance", {}},
-                              {"force\nevals", {}},     {"CPU\ntime", {}},
-                              {"re-\nver-\nsible", {}}, {"area\nkept", {}}};
+  std::vector<Column> columns{{"\nscheme", {}, true},     {"\norder", {}},      {"\nmeasured", {}},
+                              {"step or\ntolerance", {}}, {"force\nevals", {}}, {"CPU\ntime", {}},
+                              {"way\nback", {}},          {"area\nkept", {}}};
   for (const ComparedScheme& scheme : result.schemes) {
     columns[0].cells.push_back(scheme.name);
     columns[1].cells.push_back(scheme.order > 0 ? fmt::format("{}", scheme.order) : "-");

@@ -186,8 +186,7 @@ std::string splitting_text(const System& system, const SplittingResult& result, 
   std::string text =
       doubts_of(result).folded_text() + heading(system) +
       fmt::format(
-          "{} of {} at each of three kicks,\n"
-          "{:.3g} and its half and quarter, seed {}\n\n",
+          "{} of {} for each of three kicks, of\n{:.2g}, half and a quarter of it, seed {}\n\n",
           counted(result.runs.front().size(), "population"),
           counted(result.plan.population, "trajectory"), result.plan.kick, system.run.seed);
   EstimateTable p_table, rate_table;
@@ -205,7 +204,7 @@ std::string splitting_text(const System& system, const SplittingResult& result, 
                   {"equivalent", equivalent}});
   if (std::isfinite(extinction))
     text +=
-        folded(fmt::format("{:>12.6g}  {} by then: how rare survival is they do not say. More "
+        folded(fmt::format("{:>12.6g}  {} by then: they cannot say how rare survival is. More "
                            "trajectories (--population), or levels closer together, go further.",
                            extinction, all_died_out),
                std::string(14, ' ')) +
