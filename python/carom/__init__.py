@@ -52,20 +52,17 @@ from .results import (
     Table,
     Validation,
 )
-from .sweep import Sweep
-from .system import (
-    System,
+from .shapes import (
     annulus,
+    cardioid,
     circle,
     discs,
     egg,
     ellipse,
     flower,
-    lemon,
-    cardioid,
     implicit,
+    lemon,
     limacon,
-    load,
     lorentz,
     mushroom,
     parametric,
@@ -80,10 +77,10 @@ from .system import (
     spline,
     stadium,
     superellipse,
-    system,
-    systems,
     triangle,
 )
+from .sweep import Sweep
+from .system import System, load, system, systems
 
 __version__: str = _carom.version
 #: Names of fates: `carom.fates[row["fate"]]`.

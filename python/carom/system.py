@@ -113,7 +113,7 @@ def _changes(keywords, command=None):
 Made = TypeVar("Made", bound=Callable[..., Any])
 
 
-def _of_keywords(function: Made) -> Made:
+def of_keywords(function: Made) -> Made:
     """What makes a system of keywords: wrong ones have a hint, and errors speak of keywords."""
     parameters = inspect.signature(function).parameters
     names = [name for name in parameters if name != "self"]
@@ -187,7 +187,7 @@ class System:
         self._loaded("table")
         return self
 
-    @_of_keywords
+    @of_keywords
     def hole(self, wall, center=None, width=None, name=None, **keys) -> "System":
         """An opening of that width in a wall, its middle at the arc length `center` (lengths)."""
         return self._append(
@@ -196,7 +196,7 @@ class System:
             )
         )
 
-    @_of_keywords
+    @of_keywords
     def obstacle(self, shape, name=None, **keys) -> "System":
         """A hard obstacle: "circle" {center, radius}, "ellipse" {center, a, b, angle} or
         "polygon" {points}; lengths and radians."""
@@ -204,12 +204,12 @@ class System:
             toml.section("table.obstacle", {"shape": shape, "name": name, **keys}, True)
         )
 
-    @_of_keywords
+    @of_keywords
     def wall(self, law, wall=None, **keys) -> "System":
         """How a wall reflects, or all of them: law "specular", "diffuse" or "mixed" {specularity}."""
         return self._append(toml.section("table.wall", {"wall": wall, "law": law, **keys}, True))
 
-    @_of_keywords
+    @of_keywords
     def region(self, wall, **keys) -> "System":
         """Particles pass that wall of an obstacle. index, potential (energy), B: within; reflection:
         "none", "s" or "p"."""
@@ -344,172 +344,3 @@ def system(name: str) -> System:
 def systems() -> list[str]:
     """Names of the systems that Carom carries with it."""
     return [name for name, _ in _carom.systems()]
-
-
-def _shape(shape, **keys):
-    return System(toml.section("table", {"shape": shape, **keys}), shape)._checked()
-
-
-@_of_keywords
-def rectangle(width=1, height=1) -> System:
-    """[0, width] × [0, height] (lengths), with walls bottom, right, top, left."""
-    return _shape("rectangle", width=width, height=height)
-
-
-@_of_keywords
-def polygon(points) -> System:
-    """A polygon through the points, (corners, 2), lengths; walls side_1, side_2, …"""
-    return _shape("polygon", points=points)
-
-
-@_of_keywords
-def triangle(points) -> System:
-    """A triangle with these three points (lengths); walls side_1, side_2, side_3."""
-    return _shape("triangle", points=points)
-
-
-@_of_keywords
-def regular(sides, radius=1, angle=None) -> System:
-    """A regular polygon about the origin; `radius` (length) is that of its corners, `angle` (radians)
-    the direction of the first."""
-    return _shape("regular", sides=sides, radius=radius, angle=angle)
-
-
-@_of_keywords
-def circle(radius=1) -> System:
-    """A disc of this radius (length) about the origin, with the wall circle."""
-    return _shape("circle", radius=radius)
-
-
-@_of_keywords
-def ellipse(a, b) -> System:
-    """An ellipse about the origin with semi-axes a along x and b along y (lengths), with the wall
-    ellipse."""
-    return _shape("ellipse", a=a, b=b)
-
-
-@_of_keywords
-def annulus(outer, inner, offset=None) -> System:
-    """Between two circles of these radii, the inner one shifted by `offset` along x (lengths); walls
-    outer, inner."""
-    return _shape("annulus", outer=outer, inner=inner, offset=offset)
-
-
-@_of_keywords
-def stadium(half_length=1, radius=1) -> System:
-    """Bunimovich's stadium about the origin, straight walls of 2·half_length (lengths); walls
-    bottom, right, top, left."""
-    return _shape("stadium", half_length=half_length, radius=radius)
-
-
-@_of_keywords
-def mushroom(cap_radius, stem_width, stem_height) -> System:
-    """Bunimovich's mushroom: cap above y = 0, stem below (lengths)."""
-    return _shape("mushroom", cap_radius=cap_radius, stem_width=stem_width, stem_height=stem_height)
-
-
-@_of_keywords
-def lemon(radius, separation) -> System:
-    """The lens between two circles of one radius whose centres are `separation` apart (lengths)."""
-    return _shape("lemon", radius=radius, separation=separation)
-
-
-@_of_keywords
-def sinai(side=1, radius=0.25, torus=None) -> System:
-    """A disc at the centre of a square [0, side]² (lengths), which is a torus; torus=False: with walls."""
-    return _shape("sinai", side=side, radius=radius, torus=torus)
-
-
-@_of_keywords
-def lorentz(lattice="triangular", spacing=2.2, radius=1) -> System:
-    """The periodic Lorentz gas: one disc a cell of a triangular or square lattice; `spacing` is that
-    of the centres (lengths)."""
-    return _shape("lorentz", lattice=lattice, spacing=spacing, radius=radius)
-
-
-@_of_keywords
-def discs(centers, radius=None, radii=None) -> System:
-    """Hard discs in the open plane about these centers, (discs, 2), lengths; walls disc_1, disc_2,
-    … Starts are on the first of them by the
-    cosine law, unless `initial` says another."""
-    text = toml.section("table", {"shape": "discs", "centers": centers, "radius": radius, "radii": radii})
-    text += toml.section("initial", {"kind": "boundary", "wall": "disc_1"})
-    return System(text, "discs")._checked()
-
-
-@_of_keywords
-def cardioid(radius=1) -> System:
-    """The cardioid r = radius·(1 + cos φ) (length); its cusp is at the origin."""
-    return _shape("cardioid", radius=radius)
-
-
-@_of_keywords
-def limacon(radius=1, epsilon=0.5) -> System:
-    """Pascal's limaçon r = radius·(1 + epsilon·cos φ) (length)."""
-    return _shape("limacon", radius=radius, epsilon=epsilon)
-
-
-@_of_keywords
-def flower(radius=1, epsilon=0.2, petals=5) -> System:
-    """A wavy circle r = radius·(1 + epsilon·cos(petals·φ)) (length)."""
-    return _shape("flower", radius=radius, epsilon=epsilon, petals=petals)
-
-
-@_of_keywords
-def superellipse(a=1, b=1, exponent=4) -> System:
-    """The curve |x/a|ⁿ + |y/b|ⁿ = 1 (lengths), n even."""
-    return _shape("superellipse", a=a, b=b, exponent=exponent)
-
-
-@_of_keywords
-def robnik(radius=1, lambda_=0.3) -> System:
-    """Robnik's billiard: the unit circle mapped by z + lambda_·z², times the radius (length)."""
-    return _shape("robnik", radius=radius, **{"lambda": lambda_})
-
-
-@_of_keywords
-def egg(a=1.2, b=1, epsilon=0.2) -> System:
-    """x = a·cos t, y = b·sin t·(1 + epsilon·cos t) (lengths)."""
-    return _shape("egg", a=a, b=b, epsilon=epsilon)
-
-
-@_of_keywords
-def polar(radius) -> System:
-    """A wall r = radius(φ) about the origin (length), a formula of `phi`: "1 + 0.3*cos(3*phi)"; walls curve_1,
-    curve_2, … from the angle 0."""
-    return _shape("polar", radius=radius)
-
-
-@_of_keywords
-def parametric(x, y, start=None, end=None) -> System:
-    """A wall x(t), y(t) (lengths), formulas of `t` from start (0) to end (2π): "2*cos(t)", "sin(t)"."""
-    return _shape("parametric", x=x, y=y, **{"from": start, "to": end})
-
-
-@_of_keywords
-def implicit(equation, inside=(0, 0)) -> System:
-    """The closed curve on which a formula of x and y vanishes (lengths), "x^4 + y^4 - 1": of all its curves the
-    first on the right of the point `inside`, (2,)."""
-    return _shape("implicit", equation=equation, inside=inside)
-
-
-@_of_keywords
-def spline(points) -> System:
-    """The smooth wall through the points, (points, 2), lengths: a periodic cubic spline."""
-    return _shape("spline", points=points)
-
-
-def plane() -> System:
-    """The open plane without walls, for obstacles and potentials. Particles start at the origin, unless
-    `initial` says another."""
-    text = toml.section("table", {"shape": "plane"})
-    text += toml.section("initial", {"kind": "point", "position": [0, 0], "velocity": [1, 0]})
-    return System(text, "plane")._checked()
-
-
-def path(*loops) -> System:
-    """Own loops of pieces, as [[table.loop]] of a system file describes them."""
-    text = toml.section("table", {"shape": "path"})
-    for loop in loops:
-        text += toml.section("table.loop", loop, True)
-    return System(text, "path")._checked()
