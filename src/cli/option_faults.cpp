@@ -30,7 +30,7 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) {
 
 std::string unknown_word(const CLI::App& app) {
   for (const std::string& word : app.remaining()) {
-    if (word.empty() || word[0] == '-') continue;
+    if (word.find_first_of("-+0123456789") == 0 || word.empty()) continue;  // an option, its value
     if (is_system(word))
       return "'" + word + "' is a system, not a command: carom run " + word + ", carom escape " +
              word + ", carom table " + word;
