@@ -47,7 +47,7 @@ class Drawing:
 
 def joints(file):
     corners = [(0.3, 0.0), (1.9, 0.0), (2.3, 0.9), (1.5, 1.6), (0.5, 1.5), (0.0, 0.8)]
-    start, way = (0.15, 0.4), (1.0, 0.07)
+    start, way = (0.105, 0.52), (1.0, 0.02)
     picture = Drawing("Joints on the left and on the right of a flight", 2 * MARGIN + 3.3 * SCALE, 2 * MARGIN + 1.75 * SCALE, (-0.2, -0.1))
     picture.path(corners + [corners[0]], WALL, 2.5)
     picture.path([(start[0] + t * way[0], start[1] + t * way[1]) for t in (0.0, 2.5)], GREY, 1, 'stroke-dasharray="5 4"')

@@ -73,7 +73,12 @@ def colour_map():
 
 
 def colour_bar(ax, drawn, name, **keywords):
-    """What colours say, in a bar as high as the picture."""
+    """What colours say, in a bar as high as the picture; what stands beside the picture steps aside."""
+    from matplotlib.offsetbox import AnchoredOffsetbox
+
+    for one in ax.artists:
+        if isinstance(one, AnchoredOffsetbox):
+            one.set_bbox_to_anchor((1.2, 0.0), ax.transAxes)
     ax.figure.colorbar(drawn, cax=ax.inset_axes([1.03, 0.0, 0.035, 1.0]), label=symbol(name), **keywords)
 
 

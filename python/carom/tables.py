@@ -36,7 +36,6 @@ def table(
     if starts:
         _starts(_carom.starts(loaded, starts), ax)
     ax.set(aspect="equal", xlabel="$x$", ylabel="$y$")
-    ax.locator_params(steps=[1, 2, 5, 10])
     title(ax, system)
     make_room(ax, 0.06)
     if levels:
@@ -168,10 +167,11 @@ def make_room(ax, share):
 
 
 def fit(ax):
-    """A figure as high as its table."""
+    """A figure as high as its table, with ticks at whole, half and fifth steps."""
+    ax.locator_params(steps=[1, 2, 5, 10])
     width, height = numpy.diff(ax.get_xlim())[0], numpy.diff(ax.get_ylim())[0]
     lines = ax.get_title().count("\n")
-    ax.figure.set_size_inches(5.0, float(numpy.clip(0.9 + 0.15 * lines + 4.2 * height / width, 1.4, 6.5)))
+    ax.figure.set_size_inches(5.0, float(numpy.clip(0.95 + 0.17 * lines + 4.2 * height / width, 1.4, 6.5)))
 
 
 def arrow(ax, points, colour, share=0.75, size=11):

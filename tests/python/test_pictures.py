@@ -77,9 +77,9 @@ def nothing_is_covered(ax):
 
 def test_starts_field_and_directions_are_shown():
     square = carom.system("magnetic-square")
-    drawn = " ".join(one.get_text() for one in square.plot().texts)
+    drawn = square.plot().get_title()
     assert "ω" in drawn and "clockwise" in drawn
-    assert "ω" not in " ".join(one.get_text() for one in square.plot(field=False).texts)
+    assert "ω" not in square.plot(field=False).get_title()
     point = square.with_(initial={"kind": "point", "position": [0.5, 0.25], "velocity": [1, 1]})
     dots = [line.get_xydata().tolist() for line in point.plot().get_lines()]
     assert [[0.5, 0.25]] in dots
@@ -211,7 +211,7 @@ def test_a_share_that_stays_has_plain_numbers():
 
 def test_few_short_times_take_no_colours():
     result = carom.escape("mushroom", trajectories=2000, t_max=100, per_trajectory=True)
-    bar = carom.plot.times(result).figure.axes[-1]
+    (bar,) = carom.plot.times(result).child_axes
     assert bar.get_ylim()[0] > 5 * result.per_trajectory["time"].min()
 
 
@@ -275,7 +275,8 @@ def test_names_stand_beside_their_walls():
     "value, error, text",
     [
         (0.342849, 0.00054, "0.34285(54)"), (0.018864, 9.96e-5, "0.01886(10)"), (12.3, 0, "12.3"),
-        (1234.5, 12.0, "1234(12)"), (-0.5, 0.095, "-0.500(95)"), (3.0, float("nan"), "3"),
+        (1234.5, 12.0, "1234(12)"), (-0.5, 0.095, "−0.500(95)"), (3.0, float("nan"), "3"),
+        (-15400.0, None, "−1.54·10$^{4}$"), (0.0, 0.0, "0"),
     ],
 )  # fmt: skip
 def test_a_value_and_its_error_are_rounded_together(value, error, text):
@@ -293,7 +294,57 @@ def test_no_line_joins_different_laws():
     for part in joined:
         places = numpy.searchsorted(result.table["field.B"], part)
         assert len(set(laws[places])) == 1 and (numpy.diff(places) == 1).all()
-    assert result.plot().get_ylabel() == "survival"  # what all values have
+    assert result.plot().get_ylabel() == "$p(T)$"  # what all values have
+
+
+def test_undecided_values_are_hollow():
+    result = carom.escape("magnetic-square", trajectories=10_000, sweep={"field.B": "lin:0.5:2.5:9"})
+    undecided = [row["values"][0] for row in result.json["sweep"] if row["fit"].get("decided") is False]
+    known = result.table["field.B"][numpy.isfinite(result.table["exponent"])]
+    assert undecided  # what is tested here
+    hollow = [one for one in carom.plot.sweep(result, y="exponent").get_lines() if one.get_markerfacecolor() == "white"]
+    drawn = sorted(x for line in hollow for x in line.get_xdata())
+    assert drawn == sorted(x for x in known if any(abs(x - float(one)) < 1e-12 for one in undecided))
+
+
+def test_cells_of_a_logarithmic_plane_are_around_their_values():
+    result = carom.escape("stadium", trajectories=50, t_max=20, sweep={"field.B": "log:0.01:1:5", "run.seed": [1, 2]})
+    ax = result.plot()
+    corners = ax.collections[0].get_coordinates()
+    edges = corners[0, :, 0]
+    assert ax.get_xscale() == "log" and edges[0] > 0
+    assert numpy.allclose(edges[1:] / edges[:-1], 10**0.5) and (edges[:-1] < result.table["field.B"][::2]).all()
+
+
+def test_edges_of_regions_are_no_walls_and_fields_in_them_are_said():
+    strip = carom.rectangle(4, 2).obstacle("circle", name="dot", center=(1, 1), radius=0.5).region("dot", B=-2).with_(B=2)
+    ax = strip.plot(names=False)
+    assert "−2 … 2, both ways" in ax.get_title()
+    widths = [line.get_linewidth() for line in ax.get_lines()]
+    assert sorted(set(widths)) == [0.6, 1.2] and widths.count(0.6) == 1
+
+
+def test_a_colour_bar_is_as_high_as_its_picture():
+    ax = carom.run("stadium", collisions=20).plot(by="time")
+    ax.figure.canvas.draw()
+    (bar,) = ax.child_axes
+    heights = [one.get_window_extent().height for one in (ax, bar)]
+    assert heights[0] == pytest.approx(heights[1])
+
+
+def test_starts_on_walls_are_drawn_in_phase_space():
+    result = carom.escape("stadium", trajectories=100, t_max=50, per_trajectory=True)
+    rows = result.per_trajectory
+    ax = result.plot(what="times")
+    lengths = [wall["length"] for wall in carom.table("stadium").json["walls"]]
+    places = rows["s"] + numpy.concatenate([[0], numpy.cumsum(lengths)])[rows["wall"]]
+    assert numpy.allclose(ax.collections[0].get_offsets()[:, 0], places) and ax.get_xlabel() == "$s$"
+
+
+def test_a_repeller_is_drawn_by_its_kicks():
+    result = carom.lyapunov("three-disc", trajectories=20_000)
+    assert list(carom.plot.pictures(result)) == ["convergence"]
+    assert len(result.plot().containers[0].lines[0].get_xdata()) == 3
 
 
 def test_results_share_a_picture():

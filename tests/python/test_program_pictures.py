@@ -4,6 +4,7 @@ import os
 import pathlib
 import subprocess
 
+import PIL.Image
 import pytest
 
 
@@ -116,6 +117,11 @@ def test_a_film_is_made(carom, tmp_path):
     carom("escape", "stadium", "--trajectories", 10, "-o", "escape.h5", "--quiet")
     assert "no moving particles" in carom("animate", "escape.h5", status=1).stderr
     assert ".mp4" in carom("animate", "orbit.h5", "-o", "orbit.png", status=1).stderr
+    carom("animate", "orbit.h5", "-o", "few.gif", "--frames", 3, "--fps", 5, "--trail", 2)
+    film = PIL.Image.open(tmp_path / "few.gif")
+    assert film.n_frames == 3 and film.info["duration"] == 200
+    for name, text in (("frames", 0), ("fps", "fast"), ("trail", -1)):
+        assert f"--{name}: '{text}'" in carom("animate", "orbit.h5", "--force", f"--{name}={text}", status=1).stderr
 
 
 def test_other_endings_are_refused(carom, tmp_path):
