@@ -6,8 +6,8 @@ import numpy
 
 from . import _carom
 from .axes import (
-    COLOURS, colour_bar, colour_of, legend, new_axes, picture, plain, scale_of, style_of, subplots, symbol, title, title_above,
-    with_error,
+    COLOURS, colour_bar, colour_of, legend, new_axes, picture, plain, scale_of, style_of, subplots, symbol, title,
+    title_above, with_error,
 )  # fmt: skip
 from .errors import InputError
 from .tables import table
@@ -81,7 +81,7 @@ def _line(ax, table, key, y, decided, style):
             error = numpy.array([numpy.minimum(error, table[y][part]), error])
         ax.errorbar(table[key][part], table[y][part], yerr=error, capsize=2, elinewidth=0.9, **usual)
         hollow = [i for i in part if not decided[i]]
-        usual |= {"linestyle": "", "markerfacecolor": "white", "label": "undecided"}
+        usual |= {"linestyle": "", "markerfacecolor": "white", "label": "undecided", "zorder": 3}
         if hollow:
             ax.plot(table[key][hollow], table[y][hollow], **usual)
     if len(names) > 1 or "label" in style or not decided.all():
@@ -151,7 +151,8 @@ def convergence(result, ax=None, **style):
         value, error = numpy.array([(one["value"], one["stderr"]) for one in kicks]).T
         ax.errorbar(t, value, yerr=error, capsize=2, **(style | {"linestyle": ""}))
     ax.set_xscale("log")
-    _exponent_line(ax, result, ax.axhline, ax.axhspan, {"color": own.get("color", COLOURS[1]), "alpha": own.get("alpha")})
+    own = {"color": own.get("color", COLOURS[1]), "alpha": own.get("alpha")}
+    _exponent_line(ax, result, ax.axhline, ax.axhspan, own)
     time = points is not None and len(points) or result.repeller is None
     ax.set(xlabel="$t$" if time else "kick of the copies", ylabel="λ$(t)$" if time else "λ")
     title(ax, result.system)

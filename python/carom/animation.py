@@ -46,7 +46,7 @@ def animate(
     clock = ax.annotate("", (0, 0), xycoords="axes fraction", xytext=(0, -22), va="top",
                         textcoords="offset points", fontsize="x-small", color="0.35")  # fmt: skip
     colours = [colour_of(i, len(particles)) for i in range(len(particles))]
-    ways = [ax.plot([], [], color=c, linewidth=0.8, alpha=0.6, zorder=2)[0] for c in colours]
+    ways = [ax.plot([], [], color=c, linewidth=1.2, alpha=0.7, zorder=2)[0] for c in colours]
     dots = [ax.plot([], [], "o", color=c, markersize=5, zorder=4)[0] for c in colours]
     paths = [thing.path(p) for p in particles]
     # Hard discs are drawn as large as they are.

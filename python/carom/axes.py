@@ -78,7 +78,7 @@ def colour_bar(ax, drawn, name, **keywords):
 
     for one in ax.artists:
         if isinstance(one, AnchoredOffsetbox):
-            one.set_bbox_to_anchor((1.2, 0.0), ax.transAxes)
+            one.set_bbox_to_anchor((1.17, 0.0), ax.transAxes)
     ax.figure.colorbar(drawn, cax=ax.inset_axes([1.03, 0.0, 0.035, 1.0]), label=symbol(name), **keywords)
 
 

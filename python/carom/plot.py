@@ -86,16 +86,13 @@ def orbit(run, ax=None, most_hits=2000, names=False, by="particle", **style):
         _by_time(lines, ax, style)
     if labelled:
         _legend(ax)
-    if drawn:
-        ax.annotate(
-            f"the first {most_hits} hits", (1, 0), xycoords="axes fraction", fontsize="x-small",
-            ha="right", va="bottom", color="0.4",
-        )  # fmt: skip
+    said = [f"first {most_hits} hits"] if drawn else []
     if run.engine != "events" and not len(run._samples):
-        ax.annotate(
-            "straight between hits: no samples", (0, 1), xycoords="axes fraction", xytext=(3, -3),
-            textcoords="offset points", fontsize="x-small", ha="left", va="top", color="0.4",
-        )  # fmt: skip
+        said.append("no samples: straight between hits")
+    ax.annotate(
+        "\n".join(said), (1, 0), xycoords="axes fraction", xytext=(0, -18), textcoords="offset points",
+        fontsize="x-small", ha="right", va="top", color="0.4",
+    )  # fmt: skip
     _make_room(ax, 0.04)
     _levels(run.system._loaded("table"), ax)
     if made:
@@ -357,7 +354,7 @@ def splitting(result, ax=None, **style):
     places, values, low, high = ([row[key] for row in rows] for key in (x, "value", "low", "high"))
     _with_band(ax, places, values, low, high, style)
     _decay(ax, result.fit, style)
-    ax.set(yscale="log", xlabel="hits" if x == "n" else x, ylabel=f"p({x})")
+    ax.set(yscale="log", xlabel="hits" if x == "n" else "$t$", ylabel=f"$p({x})$")
     _title(ax, result.system)
     return ax
 

@@ -200,7 +200,7 @@ def _field(loaded, ax):
 
         box = AuxTransformBox(ax.transData)
         box.add_artist(Circle((0.0, 0.0), radius, fill=False, edgecolor="0.45", linewidth=0.8))
-        beside = {"bbox_to_anchor": (1.01, 0.0), "bbox_transform": ax.transAxes, "pad": 0.0, "frameon": False}
+        beside = {"bbox_to_anchor": (1.0, 0.0), "bbox_transform": ax.transAxes, "pad": 0.4, "frameon": False}
         ax.add_artist(AnchoredOffsetbox("lower left", child=box, **beside))
     ax.set_title("\n".join(filter(None, (ax.get_title(), text))), fontsize=9)
 

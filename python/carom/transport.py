@@ -37,7 +37,8 @@ def correlation(result, ax=None, **style):
         return _against_time(ax, result, result.correlation, r"$\langle\mathbf{v}(t)\cdot\mathbf{v}(0)\rangle$", style)
     figure, axes = subplots(1, 2, figsize=(8.0, 3.6))
     correlation(result, ax=axes[0], **style).set_title("")
-    _against_time(axes[1], result, result.green_kubo, r"$\frac{1}{2}\int_0^t\langle\mathbf{v}(t')\cdot\mathbf{v}(0)\rangle\,\mathrm{d}t'$", style).set_title("")
+    integral = r"$\frac{1}{2}\int_0^t\langle\mathbf{v}(t')\cdot\mathbf{v}(0)\rangle\,\mathrm{d}t'$"
+    _against_time(axes[1], result, result.green_kubo, integral, style).set_title("")
     if result.D is not None and "note" not in result.json:
         D = result.D
         axes[1].axhspan(D.value - D.stderr, D.value + D.stderr, color=COLOURS[1], alpha=0.3, linewidth=0)
@@ -105,6 +106,7 @@ def returns(result, ax=None, **style):
     )
     if "label" in style:
         legend(ax)
-    ax.set(xscale="log", yscale="log", xlabel="$t$", ylabel=f"share of returns to {plain(result.wall)} after $t$ or more")
+    label = f"share of returns to {plain(result.wall)} after $t$ or more"
+    ax.set(xscale="log", yscale="log", xlabel="$t$", ylabel=label)
     title(ax, result.system)
     return ax

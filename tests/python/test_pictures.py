@@ -299,7 +299,7 @@ def test_no_line_joins_different_laws():
 
 def test_undecided_values_are_hollow():
     result = carom.escape("magnetic-square", trajectories=10_000, sweep={"field.B": "lin:0.5:2.5:9"})
-    undecided = [row["values"][0] for row in result.json["sweep"] if row["fit"].get("decided") is False]
+    undecided = [row["values"]["field.B"] for row in result.json["sweep"] if row["fit"].get("decided") is False]
     known = result.table["field.B"][numpy.isfinite(result.table["exponent"])]
     assert undecided  # what is tested here
     hollow = [one for one in carom.plot.sweep(result, y="exponent").get_lines() if one.get_markerfacecolor() == "white"]

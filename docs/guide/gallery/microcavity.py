@@ -1,4 +1,4 @@
-# Light in an elliptic cavity of index 2, and where late light leaves to.
+# Light in an elliptic cavity of index 2 (its edge is dashed), and the directions in which late light leaves.
 import matplotlib.pyplot as pyplot
 import numpy
 

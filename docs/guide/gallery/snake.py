@@ -1,4 +1,4 @@
-# A snake orbit along the edge between two opposite magnetic fields.
+# A snake orbit along the edge (dashed) between two opposite magnetic fields.
 import carom
 
 strip = carom.rectangle(12, 3).obstacle("polygon", name="below", points=[(0.1, 0.1), (11.9, 0.1), (11.9, 1.5), (0.1, 1.5)])

@@ -1,4 +1,4 @@
-# Diffusion coefficient of a Lorentz gas against the magnetic field.
+# Diffusion coefficient of a Lorentz gas against the magnetic field: it has a dip near B = 0.25.
 import matplotlib.pyplot as pyplot
 
 import carom
