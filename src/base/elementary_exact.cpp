@@ -41,9 +41,17 @@ class ExponentsOfDoubles {
   mpfr_exp_t least_, largest_;
 };
 
+/// Constants and memory that MPFR keeps for a thread end with it.
+struct CacheOfThread {
+  ~CacheOfThread() { mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); }
+  void keep() {}
+};
+thread_local CacheOfThread cache_of_thread;
+
 /// function(result) fills in a result and returns on which side of the truth it is.
 template <class Function>
 double rounded(Function function) {
+  cache_of_thread.keep();
   Number result;
   const ExponentsOfDoubles exponents;
   const int side = function(static_cast<mpfr_ptr>(result));
