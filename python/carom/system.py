@@ -198,8 +198,11 @@ class System:
 
     @of_keywords
     def obstacle(self, shape, name=None, **keys) -> "System":
-        """A hard obstacle: "circle" {center, radius}, "ellipse" {center, a, b, angle} or
-        "polygon" {points}; lengths and radians."""
+        """A hard obstacle: "circle" {center, radius}, "ellipse" {center, a, b, angle}, "polygon" {points},
+        "spline" {points}, "path" {start, pieces}, "polar" {radius, a formula of `phi`; center} or
+        "parametric" {x, y, formulas of `t`; start, end}; lengths and radians."""
+        if shape == "parametric":
+            keys = {{"start": "from", "end": "to"}.get(key, key): one for key, one in keys.items()}
         return self._append(
             toml.section("table.obstacle", {"shape": shape, "name": name, **keys}, True)
         )

@@ -1,4 +1,4 @@
-// Curves that are no segments or conics, as Bézier curves: r(phi), and splines through points.
+// Curves that are written as formulas, as Bézier curves.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,14 +6,15 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "carom/base/elementary.hpp"
 #include "carom/base/whole_number.hpp"
 #include "carom/geometry/curve_frame.hpp"
 #include "forces/formula_bound.hpp"
+#include "table/closed_curves.hpp"
 #include "table/numbers.hpp"
 #include "table/quintic.hpp"
-#include "table/shapes.hpp"
 
 namespace carom::table::shapes {
 namespace {
@@ -33,13 +34,14 @@ Formula parsed(const WrittenFormula& written, const char* variable, const Number
   return Formula::parse(written.text, variables, numbers, written.place);
 }
 
-/// r(phi).
+/// r(phi) about a centre.
 struct Polar {
   static constexpr const char* variable = "phi";
   static constexpr const char* expected =
       "a radius that is positive, smooth and has the period 2 pi";
   Place place;
   Formula radius;
+  Vector centre{};
   double from = 0.0, to = two_pi;
 
   Jet jet(double phi) const {
@@ -85,7 +87,7 @@ class Drawing {
  public:
   explicit Drawing(Curve curve) : curve_(std::move(curve)) {}
 
-  Shape shape() {
+  ClosedCurve walls(const Layout& layout) {
     // Four parts at least, so that no piece of a simple curve turns by more than a right angle.
     constexpr std::size_t parts = 4;
     std::array<Jet, parts + 1> jets;
@@ -96,22 +98,15 @@ class Drawing {
     }
     jets[parts] = closing(jets[0]);
     for (std::size_t k = 0; k < parts; ++k) cut(jets[k], jets[k + 1], 0);
-    double area = 0.0;
-    for (const Bezier& piece : pieces_) area += geometry::area_integral(piece);
-    if (area < 0.0) {
-      std::reverse(pieces_.begin(), pieces_.end());
-      for (Bezier& piece : pieces_) piece = std::get<Bezier>(geometry::reversed(piece));
-    }
-    Shape shape;
-    const std::vector<std::string> names = numbered("curve", pieces_.size());
     // Where both derivatives of the first order vanish, at its start, the curve turns back.
     const bool cusp = jets[0].first == Vector{};
     Chain chain;
-    for (std::size_t k = 0; k < pieces_.size(); ++k)
-      chain.push_back({names[k], pieces_[k], k == 0 && cusp ? 0 : smooth});
-    shape.loops.push_back(std::move(chain));
-    shape.curve_distance = distance_;
-    return shape;
+    for (const Bezier& piece : pieces_)
+      chain.push_back({"", piece, chain.empty() && cusp ? 0 : smooth});
+    chain = turned(std::move(chain), layout.clockwise);
+    const std::vector<std::string> names = numbered(layout.stem, chain.size());
+    for (std::size_t k = 0; k < chain.size(); ++k) chain[k].name = names[k];
+    return {std::move(chain), distance_};
   }
 
  private:
@@ -188,87 +183,74 @@ class Drawing {
   std::vector<Bezier> pieces_;
 };
 
-/// Solves l[k] x[k-1] + d[k] x[k] + u[k] x[k+1] = r[k] around a circle: Thomas' algorithm with the
-/// corners as a correction of rank one. Diagonally dominant, so without pivots.
-std::vector<Vector> solve_around(const std::vector<double>& l, std::vector<double> d,
-                                 const std::vector<double>& u, std::vector<Vector> r) {
-  const std::size_t n = d.size();
-  const double corner = -d[0];
-  std::vector<double> z(n, 0.0);
-  z[0] = corner;
-  z[n - 1] = u[n - 1];
-  d[0] -= corner;
-  d[n - 1] -= l[0] * u[n - 1] / corner;
-  for (std::size_t k = 1; k < n; ++k) {
-    const double share = l[k] / d[k - 1];
-    d[k] -= share * u[k - 1];
-    r[k] = r[k] - share * r[k - 1];
-    z[k] -= share * z[k - 1];
-  }
-  for (std::size_t k = n; k-- > 0;) {
-    const bool last = k + 1 == n;
-    r[k] = (1.0 / d[k]) * (last ? r[k] : r[k] - u[k] * r[k + 1]);
-    z[k] = (last ? z[k] : z[k] - u[k] * z[k + 1]) / d[k];
-  }
-  const double back = l[0] / corner, weight = 1.0 + z[0] + back * z[n - 1];
-  const Vector share = (1.0 / weight) * (r[0] + back * r[n - 1]);
-  for (std::size_t k = 0; k < n; ++k) r[k] = r[k] - z[k] * share;
-  return r;
+Polar polar_with(const WrittenFormula& radius, const Numbers& numbers = {}) {
+  return {radius.place, parsed(radius, "phi", numbers)};
+}
+Parametric parametric_with(const WrittenFormula& x, const WrittenFormula& y, double from, double to,
+                           const Numbers& numbers = {}) {
+  return {x.place, parsed(x, "t", numbers), parsed(y, "t", numbers), from, to};
 }
 
-/// The derivatives at the points of the periodic cubic spline whose parameter grows by the length
-/// of the chords.
-std::vector<Vector> slopes_at(const std::vector<Vector>& points, const std::vector<double>& chord) {
-  const std::size_t n = points.size();
-  std::vector<double> l(n), d(n), u(n);
-  std::vector<Vector> r(n);
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t before = (k + n - 1) % n, next = (k + 1) % n;
-    const double a = chord[before], b = chord[k];
-    l[k] = b;
-    d[k] = 2.0 * (a + b);
-    u[k] = a;
-    r[k] =
-        (3.0 * b / a) * (points[k] - points[before]) + (3.0 * a / b) * (points[next] - points[k]);
-  }
-  return solve_around(l, d, u, r);
+Shape as_table(ClosedCurve curve) {
+  Shape shape;
+  shape.loops.push_back(std::move(curve.chain));
+  shape.curve_distance = curve.distance;
+  return shape;
 }
 
-}  // namespace
-
-namespace {
 const WrittenFormula& formula(const TableSpec& spec, const char* key, const char* example) {
   const auto found = spec.formulas.find(key);
   if (found != spec.formulas.end()) return found->second;
   throw InputError(place_of(spec, key), "the shape '" + spec.shape + "' needs '" + key + "'",
                    std::string("a formula, as in ") + example);
 }
+
+std::optional<ExactNumber> given(const TableSpec& spec, const char* key) {
+  const auto found = spec.numbers.find(key);
+  if (found == spec.numbers.end()) return std::nullopt;
+  return found->second;
+}
+
 }  // namespace
 
+ClosedCurve drawn_polar(const WrittenFormula& radius, Vector centre, const Layout& layout) {
+  ClosedCurve curve = Drawing(polar_with(radius)).walls(layout);
+  for (NamedCurve& wall : curve.chain) {
+    auto& piece = std::get<Bezier>(wall.curve);
+    piece.from = piece.from + centre;
+    piece.to = piece.to + centre;
+    for (Vector& control : piece.inner) control = control + centre;
+  }
+  return curve;
+}
+
+ClosedCurve drawn_parametric(const WrittenFormula& x, const WrittenFormula& y,
+                             const std::optional<ExactNumber>& from,
+                             const std::optional<ExactNumber>& to, const Layout& layout) {
+  const double begin = from ? from->to_double() : 0.0, end = to ? to->to_double() : two_pi;
+  if (!(end > begin))
+    throw InputError(to ? to->place() : from->place(), "'to' is not larger than 'from'",
+                     "from < to");
+  return Drawing(parametric_with(x, y, begin, end)).walls(layout);
+}
+
 Shape polar_curve(const TableSpec& spec) {
-  const WrittenFormula& radius = formula(spec, "radius", "\"1 + 0.5*cos(phi)\"");
-  return Drawing(Polar{radius.place, parsed(radius, "phi")}).shape();
+  return as_table(drawn_polar(formula(spec, "radius", "\"1 + 0.5*cos(phi)\""), {}, {}));
 }
 
 Shape parametric_curve(const TableSpec& spec) {
-  const WrittenFormula &x = formula(spec, "x", "\"2*cos(t)\""),
-                       &y = formula(spec, "y", "\"sin(t) + 0.3*cos(2*t)\"");
-  const ExactNumber end = number_or(spec, "to", "2*pi");
-  const double from = number_or(spec, "from", "0").to_double(), to = end.to_double();
-  if (!(to > from)) throw InputError(end.place(), "'to' is not larger than 'from'", "from < to");
-  return Drawing(Parametric{x.place, parsed(x, "t"), parsed(y, "t"), from, to}).shape();
+  return as_table(drawn_parametric(formula(spec, "x", "\"2*cos(t)\""),
+                                   formula(spec, "y", "\"sin(t) + 0.3*cos(2*t)\""),
+                                   given(spec, "from"), given(spec, "to"), {}));
 }
 
 namespace {
 Shape polar_of(const TableSpec& spec, const std::string& radius, const Numbers& numbers) {
-  const WrittenFormula formula{radius, spec.shape_place};
-  return Drawing(Polar{spec.shape_place, parsed(formula, "phi", numbers)}).shape();
+  return as_table(Drawing(polar_with({radius, spec.shape_place}, numbers)).walls({}));
 }
 Shape parametric_of(const TableSpec& spec, const char* x, const char* y, const Numbers& numbers) {
   const Place& place = spec.shape_place;
-  return Drawing(Parametric{place, parsed({x, place}, "t", numbers),
-                            parsed({y, place}, "t", numbers), 0.0, two_pi})
-      .shape();
+  return as_table(Drawing(parametric_with({x, place}, {y, place}, 0.0, two_pi, numbers)).walls({}));
 }
 /// A number whose absolute value is below a bound, which is written as `text`.
 double below(const TableSpec& spec, const char* key, double bound, const char* text) {
@@ -325,48 +307,6 @@ Shape egg(const TableSpec& spec) {
   return parametric_of(
       spec, "a*cos(t)", "b*sin(t)*(1 + eps*cos(t))",
       {{"a", size(spec, "a")}, {"b", size(spec, "b")}, {"eps", below(spec, "epsilon", 1.0, "1")}});
-}
-
-Shape spline_curve(const TableSpec& spec) {
-  const auto found = spec.points.find("points");
-  if (found == spec.points.end() || found->second.size() < 3)
-    throw InputError(place_of(spec, "points"), "the shape 'spline' needs at least three points",
-                     "a list of points [x, y]");
-  std::vector<Vector> points;
-  for (const ExactPoint& p : found->second) points.push_back(point(p));
-  double area = 0.0;
-  for (std::size_t k = 0; k < points.size(); ++k)
-    area += cross(points[k], points[(k + 1) % points.size()]);
-  std::vector<std::size_t> side;  // the number of the piece after each point, as it was written
-  for (std::size_t k = 0; k < points.size(); ++k) side.push_back(k);
-  if (area < 0.0) {
-    std::reverse(points.begin() + 1, points.end());
-    std::reverse(side.begin(), side.end());
-  }
-  std::vector<double> chord;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const Vector d = points[(k + 1) % points.size()] - points[k];
-    chord.push_back(std::sqrt(dot(d, d)));
-    if (!(chord.back() > 0.0))
-      throw InputError(found->second[side[k]].x.place(), "the same point twice in a row",
-                       "points that differ; the curve closes by itself");
-  }
-  const std::vector<Vector> slope = slopes_at(points, chord);
-  const std::vector<std::string> names = numbered("curve", points.size());
-  Chain chain;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const std::size_t next = (k + 1) % points.size();
-    const double third = chord[k] / 3.0;
-    chain.push_back({names[side[k]],
-                     Bezier{points[k],
-                            points[next],
-                            {points[k] + third * slope[k], points[next] - third * slope[next]},
-                            3},
-                     smooth});
-  }
-  Shape shape;
-  shape.loops.push_back(std::move(chain));
-  return shape;
 }
 
 }  // namespace carom::table::shapes

@@ -1,9 +1,12 @@
 #include "table/obstacles.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "carom/base/exact_sum.hpp"
 #include "carom/base/fused_product.hpp"
+#include "table/closed_curves.hpp"
 #include "table/numbers.hpp"
-#include "table/shapes.hpp"
 
 namespace carom::table {
 namespace {
@@ -39,8 +42,9 @@ std::string name_of_obstacle(const std::vector<ObstacleSpec>& obstacles, std::si
                                        : obstacles[index].name;
 }
 
-std::size_t walls_of(const ObstacleSpec& obstacle) {
-  return obstacle.shape == ObstacleSpec::Shape::polygon ? obstacle.points.size() : 1;
+std::string name_of_piece(const ObstacleSpec& o, const std::string& obstacle, std::size_t piece) {
+  if (!o.loop.pieces[piece].name.empty()) return o.loop.pieces[piece].name;
+  return o.loop.pieces.size() == 1 ? obstacle : obstacle + "_" + std::to_string(piece + 1);
 }
 
 std::vector<OrderedSide> ordered_sides(const std::vector<Vector>& corners, bool clockwise) {
@@ -76,24 +80,37 @@ Chain polygon_obstacle(const ObstacleSpec& obstacle, const std::string& name) {
   return chain;
 }
 
+ClosedCurve curve_of(const ObstacleSpec& o, const std::string& name) {
+  using Kind = ObstacleSpec::Shape;
+  const Layout layout{name, true};
+  switch (o.shape) {
+    case Kind::circle:
+      break;
+    case Kind::ellipse:
+      size_of(o.b, "b");
+      return {{{name, WrittenEllipse{o.center, o.a, o.b, o.angle, false}}}};
+    case Kind::polygon:
+      return {polygon_obstacle(o, name)};
+    case Kind::path:
+      return {turned(
+          loop_of_pieces(o.loop, [&](std::size_t k) { return name_of_piece(o, name, k); }), true)};
+    case Kind::polar:
+      return drawn_polar(o.radius_formula, point(o.center), layout);
+    case Kind::parametric:
+      return drawn_parametric(o.x, o.y, o.from, o.to, layout);
+    case Kind::spline:
+      return {spline(o.points, o.place, layout)};
+  }
+  return {{{name, WrittenCircle{o.center, o.radius, false}}}};
+}
+
 }  // namespace
 
 void add_obstacles(const TableSpec& spec, Shape& shape) {
   for (std::size_t k = 0; k < spec.obstacles.size(); ++k) {
-    const ObstacleSpec& o = spec.obstacles[k];
-    const std::string name = name_of_obstacle(spec.obstacles, k);
-    switch (o.shape) {
-      case ObstacleSpec::Shape::circle:
-        shape.loops.push_back({{name, WrittenCircle{o.center, o.radius, false}}});
-        break;
-      case ObstacleSpec::Shape::ellipse:
-        size_of(o.b, "b");
-        shape.loops.push_back({{name, WrittenEllipse{o.center, o.a, o.b, o.angle, false}}});
-        break;
-      case ObstacleSpec::Shape::polygon:
-        shape.loops.push_back(polygon_obstacle(o, name));
-        break;
-    }
+    ClosedCurve curve = curve_of(spec.obstacles[k], name_of_obstacle(spec.obstacles, k));
+    shape.loops.push_back(std::move(curve.chain));
+    shape.curve_distance = std::max(shape.curve_distance, curve.distance);
   }
 }
 

@@ -10,12 +10,12 @@
 
 namespace carom::table {
 
-/// "obstacle_1", "obstacle_2" … where none is given. A circle or ellipse is one wall of that name;
-/// the sides of a polygon are NAME_side_1, NAME_side_2 …
+/// "obstacle_1", "obstacle_2" … where none is given. A circle, an ellipse or a path of one piece is
+/// a wall of that name; the sides of a polygon are NAME_side_1, NAME_side_2 …, the walls of other
+/// curves NAME_1, NAME_2 …
 std::string name_of_obstacle(const std::vector<ObstacleSpec>&, std::size_t index);
-
-/// How many walls an obstacle has.
-std::size_t walls_of(const ObstacleSpec&);
+/// The name of a piece of an obstacle's path.
+std::string name_of_piece(const ObstacleSpec&, const std::string& obstacle, std::size_t piece);
 
 /// The numbers of a polygon's corners in the order of its walls, clockwise or counter-clockwise,
 /// whichever way the list of corners runs. Side k leads from corner k to the next or back. Decided

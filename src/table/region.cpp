@@ -50,21 +50,31 @@ std::size_t side_of(const std::string& name) {
 }  // namespace
 
 Place place_of_wall(const TableSpec& spec, const Table& table, std::size_t wall) {
-  std::size_t after = table.walls.size();
-  for (std::size_t k = spec.obstacles.size(); k-- > 0;) {
-    after -= walls_of(spec.obstacles[k]);
-    if (wall >= after) return spec.obstacles[k].place;
+  const std::string& name = table.walls[wall].name;
+  // Obstacles are the last loops. The last wall of a loop leads back.
+  std::size_t loops = 0;
+  for (std::size_t k = wall; k < table.walls.size(); ++k)
+    if (static_cast<std::size_t>(table.walls[k].next) <= k) ++loops;
+  if (loops <= spec.obstacles.size()) {
+    const std::size_t index = spec.obstacles.size() - loops;
+    const ObstacleSpec& obstacle = spec.obstacles[index];
+    for (std::size_t k = 0; k < obstacle.loop.pieces.size(); ++k)
+      if (name_of_piece(obstacle, name_of_obstacle(spec.obstacles, index), k) == name)
+        return obstacle.loop.pieces[k].place;
+    return obstacle.place;
   }
   std::size_t left = wall;
   for (const LoopSpec& loop : spec.loops) {
-    if (left < loop.pieces.size()) return loop.pieces[left].place;
-    left -= loop.pieces.size();
+    const bool whole = loop.kind != LoopSpec::Kind::pieces;
+    const std::size_t count = whole ? 1 : loop.pieces.size();
+    if (left < count) return whole ? loop.place : loop.pieces[left].place;
+    left -= count;
   }
   for (const char* key : {"points", "centers"}) {
     const auto found = spec.points.find(key);
     if (found == spec.points.end() || left >= found->second.size()) continue;
     // Side k of a polygon, which may have been turned round, belongs to the points k and k + 1.
-    const std::size_t index = std::string(key) == "points" ? side_of(table.walls[wall].name) : left;
+    const std::size_t index = std::string(key) == "points" ? side_of(name) : left;
     Place place = found->second[index].x.place();
     if (place.key.ends_with("[0]")) place.key.resize(place.key.size() - 3);  // of x: the point's
     return place;

@@ -22,6 +22,22 @@ def test_a_table_is_built_with_holes_and_obstacles():
     assert table._repr_svg_().startswith("<?xml")
 
 
+def test_obstacles_are_curves_by_the_names_of_tables():
+    around = numpy.linspace(0, 2 * numpy.pi, 24, endpoint=False)
+    points = 4 + 0.8 * numpy.stack([numpy.cos(around), numpy.sin(around)], axis=1)
+    room = carom.rectangle(8, 8)
+    for table in (
+        room.obstacle("polar", name="o", center=(4, 4), radius="0.8"),
+        room.obstacle("parametric", name="o", x="4 + 0.8*cos(t)", y="4 + 0.8*sin(t)", start=0, end="2*pi"),
+        room.obstacle("spline", name="o", points=points),
+        room.obstacle("spline", name="o", points=points[::-1]),
+        room.obstacle("path", name="o", start=(4.8, 4), pieces=[
+            {"arc_via": (4, 4.8), "arc_to": (3.2, 4)}, {"arc_via": (4, 3.2), "arc_to": (4.8, 4)}]),
+    ):  # fmt: skip
+        assert table.walls[4].startswith("o_")
+        assert table.area == pytest.approx(64 - 0.64 * numpy.pi, rel=1e-4)
+
+
 @pytest.mark.parametrize(
     "make",
     [

@@ -28,10 +28,20 @@ struct PieceSpec {
   Place place;
 };
 
-/// One closed path of walls, piece by piece.
+/// One closed path of walls: pieces, or a whole circle or ellipse as an outer wall.
 struct LoopSpec {
   ExactPoint start;
   std::vector<PieceSpec> pieces;  ///< the last must end at `start`
+  Place place;
+  enum class Kind { pieces, circle, ellipse } kind = Kind::pieces;
+  ExactPoint center = {};
+  ExactNumber radius = {}, a = {}, b = {}, angle = {};  ///< as of an obstacle
+  std::string name = {};  ///< of a circle or an ellipse, as of a piece
+};
+
+/// An expression that was written, and where.
+struct WrittenFormula {
+  std::string text;
   Place place;
 };
 
@@ -50,14 +60,26 @@ inline std::string name_of_hole(const std::vector<HoleSpec>& holes, std::size_t 
 }
 
 /// An obstacle as the system file gives it: a circle has a center and a radius; an ellipse a
-/// center, the semi-axes a and b, and the angle of a against +x in radians; a polygon has points,
-/// either way round.
+/// center, the semi-axes a and b, and the angle of a against +x in radians; a polygon and a spline
+/// have points, a path a loop of pieces; a polar curve has a center and a formula of its radius, a
+/// parametric one has formulas of x and y. All may run either way round.
 struct ObstacleSpec {
-  enum class Shape { circle, ellipse, polygon } shape = Shape::circle;
+  enum class Shape {
+    circle,
+    ellipse,
+    polygon,
+    path,
+    polar,
+    parametric,
+    spline
+  } shape = Shape::circle;
   ExactPoint center;
   ExactNumber radius, a, b, angle;
   std::vector<ExactPoint> points;
-  std::string name;  ///< "" : obstacle_1, obstacle_2 …
+  LoopSpec loop;
+  WrittenFormula radius_formula, x, y;
+  std::optional<ExactNumber> from, to;  ///< 0 and 2 pi
+  std::string name;                     ///< "" : obstacle_1, obstacle_2 …
   Place place;
 };
 
@@ -81,12 +103,6 @@ struct RegionSpec {
 /// The two vectors of a lattice.
 struct LatticeSpec {
   ExactPoint first, second;
-  Place place;
-};
-
-/// An expression that was written, and where.
-struct WrittenFormula {
-  std::string text;
   Place place;
 };
 

@@ -7,13 +7,13 @@
 
 namespace carom::files {
 
-void take_points_from_file(Value& table) {
+void take_points_from_file(Value& table, const std::string& section_name) {
   const Value* shape = table.find("shape");
   if (shape == nullptr ||
       (shape->text != "discs" && shape->text != "polygon" && shape->text != "spline"))
     return;
   const bool discs = shape->text == "discs";
-  TomlSection section(table, "table", shape->text);
+  TomlSection section(table, section_name, shape->text);
   if (!section.has("path")) return;
   section.check_keys();
   const std::string key = discs ? "centers" : "points";

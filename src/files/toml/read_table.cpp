@@ -83,32 +83,6 @@ RegionSpec read_region(Value& value) {
   return spec;
 }
 
-ObstacleSpec read_obstacle(Value& value, std::size_t index) {
-  using Shape = ObstacleSpec::Shape;
-  const std::string shape =
-      read_kind(value, "table.obstacle", "shape", {"circle", "ellipse", "polygon"});
-  TomlSection section(value, "table.obstacle", shape);
-  section.check_keys();
-  ObstacleSpec obstacle;
-  obstacle.place = value.place;
-  if (shape == "polygon") {
-    obstacle.shape = Shape::polygon;
-    obstacle.points = as_points(section.get("points"));
-  } else {
-    obstacle.center = as_point(section.get("center"));
-  }
-  if (shape == "circle") obstacle.radius = as_number(section.get("radius"));
-  if (shape == "ellipse") {
-    obstacle.shape = Shape::ellipse;
-    obstacle.a = as_number(section.get("a"));
-    obstacle.b = as_number(section.get("b"));
-    obstacle.angle = as_angle(section.get("angle"));
-  }
-  const std::string name = "obstacle_" + std::to_string(index + 1);
-  obstacle.name = as_name(section.fill("name", text_value(name, section.place_of("name"))));
-  return obstacle;
-}
-
 PieceSpec read_piece(Value& value) {
   const bool line = value.find("line_to") != nullptr;
   const bool arc = value.find("arc_to") != nullptr || value.find("arc_via") != nullptr;
@@ -157,15 +131,37 @@ PieceSpec read_piece(Value& value) {
   return piece;
 }
 
-LoopSpec read_loop(Value& value) {
-  TomlSection section(value, "table.loop");
-  section.check_keys();
-  LoopSpec loop;
-  loop.place = value.place;
+void read_pieces(TomlSection& section, LoopSpec& loop) {
   loop.start = as_point(section.get("start"));
   Value& pieces = section.get("pieces");
   as_list(pieces);
   for (Value& piece : pieces.items) loop.pieces.push_back(read_piece(piece));
+}
+
+LoopSpec read_loop(Value& value) {
+  using Kind = LoopSpec::Kind;
+  const auto has = [&](const char* key) { return value.find(key) != nullptr; };
+  LoopSpec loop;
+  loop.place = value.place;
+  loop.kind = has("radius") ? Kind::circle : has("a") || has("b") ? Kind::ellipse : Kind::pieces;
+  TomlSection section(value, "table.loop",
+                      loop.kind == Kind::circle    ? "circle"
+                      : loop.kind == Kind::ellipse ? "ellipse"
+                                                   : "pieces");
+  section.check_keys();
+  if (loop.kind == Kind::pieces) {
+    read_pieces(section, loop);
+    return loop;
+  }
+  loop.center = as_point(section.get("center"));
+  if (loop.kind == Kind::circle) {
+    loop.radius = as_number(section.get("radius"));
+  } else {
+    loop.a = as_number(section.get("a"));
+    loop.b = as_number(section.get("b"));
+    loop.angle = as_angle(section.get("angle"));
+  }
+  if (const Value* name = section.find("name")) loop.name = as_name(*name);
   return loop;
 }
 
@@ -174,6 +170,55 @@ Place inside_quotes(const Value& text) {
   Place place = text.place;
   if (place.column > 0) ++place.column;
   return place;
+}
+
+WrittenFormula read_formula(const Value& value) { return {as_text(value), inside_quotes(value)}; }
+
+ObstacleSpec read_obstacle(Value& value, std::size_t index) {
+  using Shape = ObstacleSpec::Shape;
+  static const std::vector<std::string> shapes{"circle", "ellipse",    "polygon", "path",
+                                               "polar",  "parametric", "spline"};
+  const std::string shape = read_kind(value, "table.obstacle", "shape", shapes);
+  take_points_from_file(value, "table.obstacle");
+  TomlSection section(value, "table.obstacle", shape);
+  section.check_keys();
+  ObstacleSpec obstacle;
+  obstacle.place = value.place;
+  obstacle.shape = static_cast<Shape>(std::find(shapes.begin(), shapes.end(), shape) -
+                                      shapes.begin());  // in the order of the names
+  switch (obstacle.shape) {
+    case Shape::circle:
+      obstacle.center = as_point(section.get("center"));
+      obstacle.radius = as_number(section.get("radius"));
+      break;
+    case Shape::ellipse:
+      obstacle.center = as_point(section.get("center"));
+      obstacle.a = as_number(section.get("a"));
+      obstacle.b = as_number(section.get("b"));
+      obstacle.angle = as_angle(section.get("angle"));
+      break;
+    case Shape::polygon:
+    case Shape::spline:
+      obstacle.points = as_points(section.get("points"));
+      break;
+    case Shape::path:
+      read_pieces(section, obstacle.loop);
+      obstacle.loop.place = value.place;
+      break;
+    case Shape::polar:
+      obstacle.center = as_point(section.get("center"));
+      obstacle.radius_formula = read_formula(section.get("radius"));
+      break;
+    case Shape::parametric:
+      obstacle.x = read_formula(section.get("x"));
+      obstacle.y = read_formula(section.get("y"));
+      obstacle.from = as_number(section.get("from"));
+      obstacle.to = as_number(section.get("to"));
+      break;
+  }
+  const std::string name = "obstacle_" + std::to_string(index + 1);
+  obstacle.name = as_name(section.fill("name", text_value(name, section.place_of("name"))));
+  return obstacle;
 }
 
 void read_key(const KeyDescription& key, const Value& value, TableSpec& spec) {
@@ -185,7 +230,7 @@ void read_key(const KeyDescription& key, const Value& value, TableSpec& spec) {
   } else if (key.type == "list of numbers") {
     spec.lists[name] = as_numbers(value);
   } else if (key.type == "formula") {
-    spec.formulas[name] = {as_text(value), inside_quotes(value)};
+    spec.formulas[name] = read_formula(value);
   } else if (key.type == "string") {
     spec.words[name] = as_text(value);
   } else if (key.type == "boolean") {
@@ -233,7 +278,7 @@ TableSpec read_table(Value& root) {
   }
   TableSpec spec;
   spec.shape = read_kind(*table, "table", "shape", shapes());
-  take_points_from_file(*table);
+  take_points_from_file(*table, "table");
   TomlSection section(*table, "table", spec.shape);
   section.check_keys();
   spec.place = table->place;

@@ -1,0 +1,43 @@
+// Closed curves as they are written, for tables (counter-clockwise) and obstacles (clockwise).
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "table/shapes.hpp"
+
+namespace carom::table::shapes {
+
+struct ClosedCurve {
+  Chain chain;
+  double distance = 0.0;  ///< Table::curve_distance
+};
+/// What its walls are called, STEM_1, STEM_2 …, and how they run.
+struct Layout {
+  std::string stem = "curve";
+  bool clockwise = false;
+};
+
+/// A curve r(phi) about a centre; names follow the walls.
+ClosedCurve drawn_polar(const WrittenFormula& radius, geometry::Vector centre, const Layout&);
+/// The same of x(t), y(t); `from` and `to` are 0 and 2 pi if not given.
+ClosedCurve drawn_parametric(const WrittenFormula& x, const WrittenFormula& y,
+                             const std::optional<ExactNumber>& from,
+                             const std::optional<ExactNumber>& to, const Layout&);
+/// The periodic cubic spline through points; wall k leads from point k to the next or back. A fault
+/// that is none of a point is at `place`.
+Chain spline(const std::vector<ExactPoint>& points, const Place& place, const Layout&);
+/// The pieces of a loop in their order; `name(k)`: of piece k where it has none of its own.
+Chain loop_of_pieces(const LoopSpec&, const std::function<std::string(std::size_t)>& name);
+
+/// The area within, negative where the chain runs clockwise.
+double area_of(const Chain&);
+/// The chain run through backwards.
+Chain reversed(Chain);
+/// The chain, turned round if it runs the other way. Of pieces and Bézier curves.
+Chain turned(Chain, bool clockwise);
+
+}  // namespace carom::table::shapes
