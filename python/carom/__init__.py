@@ -77,6 +77,7 @@ from .shapes import (
     spline,
     stadium,
     superellipse,
+    svg,
     triangle,
 )
 from .sweep import Sweep

@@ -1,6 +1,7 @@
 """Tables by their shapes."""
 
 from . import toml
+from .errors import path_of
 from .system import System, of_keywords
 
 
@@ -155,6 +156,13 @@ def implicit(equation, inside=(0, 0)) -> System:
 def spline(points) -> System:
     """The smooth wall through the points, (points, 2), lengths: a periodic cubic spline."""
     return _shape("spline", points=points)
+
+
+@of_keywords
+def svg(path, scale=None) -> System:
+    """A drawing (SVG): its outermost curve is the table, all others are obstacles, with the ids of the drawing as
+    names. `scale`: length of the drawing's unit."""
+    return _shape("svg", path=path_of(path), scale=scale)
 
 
 def plane() -> System:

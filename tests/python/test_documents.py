@@ -125,7 +125,7 @@ def test_lengths_of_shapes_are_called_lengths():
     shapes = (
         "rectangle", "polygon", "triangle", "regular", "circle", "ellipse", "annulus", "stadium",
         "mushroom", "lemon", "sinai", "lorentz", "discs", "cardioid", "limacon", "flower", "superellipse",
-        "robnik", "egg", "polar", "parametric", "implicit", "spline",
+        "robnik", "egg", "polar", "parametric", "implicit", "spline", "svg",
     )  # fmt: skip
     for name in shapes:
         assert "length" in inspect.getdoc(getattr(carom, name)), name

@@ -2,12 +2,15 @@
 
 import decimal
 import fractions
+import pathlib
 import pickle
 
 import numpy
 import pytest
 
 import carom
+
+DRAWINGS = pathlib.Path(__file__).parents[1] / "drawings"
 
 
 def test_a_table_is_built_with_holes_and_obstacles():
@@ -38,6 +41,18 @@ def test_obstacles_are_curves_by_the_names_of_tables():
         assert table.area == pytest.approx(64 - 0.64 * numpy.pi, rel=1e-4)
 
 
+@pytest.mark.parametrize("name", [path.stem for path in DRAWINGS.glob("*.svg")])
+def test_a_drawing_gives_the_orbits_of_the_same_table_in_toml(name, tmp_path):
+    drawn = carom.svg(DRAWINGS / f"{name}.svg", scale="1/10")
+    (tmp_path / "same.toml").write_text(drawn.to_toml())
+    same = carom.load(tmp_path / "same.toml")
+    assert "svg" not in drawn.to_toml()
+    one, other = (carom.run(table, trajectories=1, collisions=200, t_max=1e9) for table in (drawn, same))
+    assert one.digest == other.digest
+    # The drawing of the picture is a drawing.
+    assert drawn.plot().get_figure()
+
+
 @pytest.mark.parametrize(
     "make",
     [
@@ -64,6 +79,7 @@ def test_obstacles_are_curves_by_the_names_of_tables():
         lambda: carom.polar("1 + 0.3*cos(3*phi)"),
         lambda: carom.parametric("2*cos(t)", "sin(t)"),
         lambda: carom.spline([(0, 0), (3, -1), (4, 1), (2, 2)]),
+        lambda: carom.svg(DRAWINGS / "inkscape.svg"),
     ],
 )
 def test_every_shape_has_a_length(make):

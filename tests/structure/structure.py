@@ -63,7 +63,7 @@ UMBRELLA = "include/carom/carom.hpp"
 PACKAGES = {
     r"CGAL/": r"geometry/src/cgal/",
     r"boost/": r"geometry/src/|src/base/|src/forces/quad\.hpp",
-    r"gmp|mpfr": r"geometry/src/|src/base/|src/table/|src/certify/",
+    r"gmp|mpfr": r"geometry/src/|src/base/|src/table/|src/certify/|src/files/svg/",
     r"(arb|acb|arf|mag)(_\w+)?\.h|flint": r"src/certify/",
     r"gsl/": r"src/analyses/relax/|src/orbits/",
     r"Random123/": r"src/base/random\.cpp",

@@ -14,7 +14,7 @@ const std::vector<KeyDescription>& key_table() {
        "sinai, "
        "lorentz, discs, random-discs, cardioid, limacon, flower, superellipse, robnik, egg, path, "
        "polar, "
-       "parametric, implicit, spline or plane (no walls)"},
+       "parametric, implicit, spline, svg (a drawing) or plane (no walls)"},
       {"table", "rectangle", "width", "number", "", "extent along x, from 0"},
       {"table", "rectangle", "height", "number", "", "extent along y, from 0"},
       {"table", "polygon|triangle", "points", "list of points", "",
@@ -71,6 +71,9 @@ const std::vector<KeyDescription>& key_table() {
        "a radius for each disc, instead of radius"},
       {"table", "polygon|spline|discs", "path", "string", "",
        "instead of points or centers: a text file with x y in each line, or x y radius for discs"},
+      {"table", "svg", "path", "string", "",
+       "a drawing (SVG): its outermost curve is the table, all others are obstacles"},
+      {"table", "svg", "scale", "number", "1", "length of the drawing's unit"},
       {"table", "random-discs", "count", "whole number", "",
        "number of discs, placed at random without overlap"},
       {"table", "random-discs", "seed", "whole number", "1", "of the arrangement"},

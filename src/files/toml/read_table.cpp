@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "files/toml/drawing_file.hpp"
 #include "files/toml/points_file.hpp"
 #include "files/toml/read.hpp"
 
@@ -13,7 +14,7 @@ const std::vector<std::string>& shapes() {
       "rectangle", "polygon",    "triangle", "regular",      "circle",  "ellipse", "annulus",
       "stadium",   "mushroom",   "lemon",    "sinai",        "lorentz", "discs",   "random-discs",
       "cardioid",  "limacon",    "flower",   "superellipse", "robnik",  "egg",     "path",
-      "polar",     "parametric", "implicit", "spline",       "plane"};
+      "polar",     "parametric", "implicit", "spline",       "svg",     "plane"};
   return names;
 }
 
@@ -277,7 +278,9 @@ TableSpec read_table(Value& root) {
     return spec;
   }
   TableSpec spec;
-  spec.shape = read_kind(*table, "table", "shape", shapes());
+  read_kind(*table, "table", "shape", shapes());
+  take_drawing(*table);
+  spec.shape = table->find("shape")->text;
   take_points_from_file(*table, "table");
   TomlSection section(*table, "table", spec.shape);
   section.check_keys();
