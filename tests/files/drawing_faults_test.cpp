@@ -194,7 +194,7 @@ TEST(DrawingFaults, DamagedDrawingsAreRefusedOrRead) {
     std::ostringstream text;
     text << std::ifstream(CAROM_SOURCE "/tests/drawings/" + std::string(name) + ".svg").rdbuf();
     ASSERT_FALSE(text.str().empty());
-    for (int k = 0; k < 2000; ++k) {
+    for (int k = 0; k < 1000; ++k) {
       const std::string svg = damaged(text.str(), cases);
       try {
         EXPECT_FALSE(files::loops_of_drawing(svg, "d.svg", 1).empty());
@@ -205,7 +205,7 @@ TEST(DrawingFaults, DamagedDrawingsAreRefusedOrRead) {
       }
     }
   }
-  EXPECT_GT(read, 1000);
+  EXPECT_GT(read, 500);
   EXPECT_GT(refused, 1000);
 }
 

@@ -47,10 +47,9 @@ def test_a_drawing_gives_the_orbits_of_the_same_table_in_toml(name, tmp_path):
     (tmp_path / "same.toml").write_text(drawn.to_toml())
     same = carom.load(tmp_path / "same.toml")
     assert "svg" not in drawn.to_toml()
-    one, other = (carom.run(table, trajectories=1, collisions=200, t_max=1e9) for table in (drawn, same))
-    assert one.digest == other.digest
-    # The drawing of the picture is a drawing.
-    assert drawn.plot().get_figure()
+    one, other = (carom.run(table, collisions=200, t_max=1e9) for table in (drawn, same))
+    assert len(one.hits) == 200
+    assert one.hits.tobytes() == other.hits.tobytes()
 
 
 @pytest.mark.parametrize(

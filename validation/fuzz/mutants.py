@@ -37,6 +37,7 @@ disc_5: shape = "random-discs"; side = 30; radius = 1; count = 60; seed = 3
 left: shape = "random-discs"; side = 30; radius = 0.5; count = 40; torus = false
 floor: shape = "path"; [[table.loop]]; start = [-1, 0]; pieces = [{line_to = [1, 0], name = "floor"}, {arc_via = [0, 1], arc_to = [-1, 0]}]
 wall_3: shape = "path"; [[table.loop]]; start = [-2, -2]; pieces = [{line_to = [2, -2]}, {line_to = [2, 2]}, {ellipse_via = [0, 3], ellipse_to = [-2, 2], ellipse_ratio = "1/2", ellipse_angle = 0}, {line_to = [-2, -2]}]; [[table.loop]]; start = [0.5, 0]; pieces = [{arc_via = [0, -0.5], arc_to = [-0.5, 0]}, {arc_via = [0, 0.5], arc_to = [0.5, 0]}]
+rim: shape = "path"; [[table.loop]]; center = [0.2, 0]; radius = 1; name = "rim"
 wall_1: shape = "path"; [[table.loop]]; start = ["1/4", "1/4"]; pieces = [{line_to = ["1/4", "3/4"]}, {line_to = ["3/4", "1/4"]}, {line_to = ["1/4", "1/4"]}]; [lattice]; vectors = [[1, 0], ["1/2", "sqrt(3)/2"]]
 """
 HOLES = """
@@ -47,6 +48,9 @@ OBSTACLES = """
 shape = "circle"; center = [0.6, "1/3"]; radius = 0.1
 shape = "ellipse"; center = [0.5, 0.5]; a = 0.2; b = 0.05; angle = "pi/6"; name = "blade"
 shape = "polygon"; points = [[0.4, 0.4], [0.6, 0.4], ["1/2", "3/5"]]
+shape = "path"; start = [0.4, 0.4]; pieces = [{line_to = [0.4, 0.6]}, {bezier = [[0.5, 0.7], [0.6, 0.4]]}, {arc_via = [0.5, 0.35], arc_to = [0.4, 0.4]}]
+shape = "polar"; center = [0.5, 0.4]; radius = "0.1 + 0.02*cos(3*phi)"
+shape = "spline"; points = [[0.4, 0.4], [0.6, 0.4], [0.6, 0.5], [0.4, 0.6]]
 shape = "circle"; center = [0.3, 0.3]; radius = 0.1; [[table.obstacle]]; shape = "circle"; center = [0.5, 0.3]; radius = 0.1
 """
 FIELDS = """
