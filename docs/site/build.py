@@ -125,6 +125,7 @@ def python_reference(stage):
         "carom.commands": "Commands",
         "carom.blocks": "Blocks of hits and of trajectories",
         "carom.system": "Systems",
+        "carom.shapes": "Shapes of tables",
         "carom.results": "Results",
         "carom.stored": "What all results have",
         "carom.estimates": "Values with errors",
