@@ -254,7 +254,7 @@ class Equations {
       const NearHit &from = hits_[i], &to = hits_[(i + 1) % n];
       const Choice next = scene_.next(where_, P, v, from.wall, middle(P), middle(v));
       if (next.answer != Choice::wall) return "it cannot be told which wall a flight meets first";
-      if (!(next.first == Copy{to.wall, from.step})) return "another wall stands in the way";
+      if (!(next.first == Copy{to.wall, from.step})) return "another wall is in the way";
       const BallVector seen = scene_.lattice ? P - scene_.translation(from.step) : P;
       const bool same = from.wall == to.wall && from.step == geometry::Cell{};
       const LandingOf<Ball> landing = flight_to<Ball, Ball>(
@@ -341,7 +341,7 @@ CertifiedPeriodicOrbit certify_orbit(const ExactSystem& system, const std::vecto
     const Equations equations(system, hits);
     const std::optional<std::vector<Ball>> box = only_solution(equations);
     if (!box) {
-      orbit.reason = "the interval Newton step does not tell it from its neighbours";
+      orbit.reason = "the interval Newton step cannot separate it from its neighbours";
       return orbit;
     }
     const Equations::At at = equations.at(*box);

@@ -11,8 +11,8 @@ void define_commands(CLI::App& app, Options& o) {
           "  carom escape mushroom --trajectories 1e6 --times log:1:1000:31 --json\n"
           "  carom escape stadium --trajectories 1e5 --per-trajectory -o basins.h5\n"
           "\n"
-          "With -o a checkpoint is written every ten seconds: carom escape --resume FILE.h5 goes "
-          "on after Ctrl-C, a kill or a full disk, and ends with the same bits.\n"
+          "With -o a checkpoint is written every ten seconds: carom escape --resume FILE.h5 "
+          "continues after Ctrl-C, a kill or a full disk, with the same bits.\n"
           "A closed table is allowed: nothing escapes. Exit status 3 if a trajectory could not be "
           "followed.")
       .system("SYSTEM", "Built-in name or TOML file")
@@ -39,9 +39,9 @@ void define_commands(CLI::App& app, Options& o) {
           "Examples:\n"
           "  carom run mushroom --trajectory 7 --t-max 100\n"
           "  carom run circle --closed --position 1/10,0 --velocity 1,2 -o orbit.h5\n"
-          "  carom run --resume orbit.h5 --collisions 2e4     goes on where it ends\n"
+          "  carom run --resume orbit.h5 --collisions 2e4     continues it\n"
           "\n"
-          "With --collisions and without --t-max the run has no last time.")
+          "With --collisions but without --t-max the run has no last time.")
       .system("SYSTEM", "Built-in name or TOML file")
       .settings()
       .sweep()
@@ -55,7 +55,7 @@ void define_commands(CLI::App& app, Options& o) {
             "Largest error of a trusted collision, in units of the table's size (default 1e-3)")
       .text("--precision", o.precision, "double|certified", "Certified: every digit guaranteed")
       .text("--digits", o.digits, "D", "Guaranteed decimals of a certified run (default 20)")
-      .text("--resume", o.resume, "FILE.h5", "Go on with a stored run instead of SYSTEM");
+      .text("--resume", o.resume, "FILE.h5", "Continue a stored run instead of SYSTEM");
   Command(app, o, compute, "diffusion", "Measure the diffusion coefficient of an ensemble",
           "Examples:\n"
           "  carom diffusion lorentz-triangular\n"
@@ -99,7 +99,7 @@ void define_commands(CLI::App& app, Options& o) {
             "Store start, fate, time, hits, exponent and SALI of each trajectory in the archive")
       .parts()
       .text("--window", o.window, "FROM:TO",
-            "Times between which the growth is taken (default: the last four fifths of the run)")
+            "Times between which the growth is measured (default: the last four fifths of the run)")
       .spectrum();
   Command(app, o, compute, "returns", "Measure return times to a wall",
           "Examples:\n"
@@ -107,7 +107,7 @@ void define_commands(CLI::App& app, Options& o) {
           "  carom returns mushroom --closed --on wall:stem_bottom -o returns.h5\n"
           "\n"
           "Only excursions that begin in the first half of the run are counted, so that each is "
-          "seen for at least half of it.\n"
+          "followed for at least half of it.\n"
           "Checkpoints, --resume, --shard and mpirun as with carom escape.")
       .system("SYSTEM", "Built-in name or TOML file")
       .settings()
@@ -125,7 +125,7 @@ void define_commands(CLI::App& app, Options& o) {
           "  carom section henon-heiles --on x=0 --direction positive --points 500 --json\n"
           "\n"
           "WHERE is boundary, wall:NAME, line:x0,y0:x1,y1, segment:x0,y0:x1,y1, circle:x,y,r, "
-          "x=c, y=c, vx=c or vy=c. With --points and without --t-max a boundary section has no "
+          "x=c, y=c, vx=c or vy=c. With --points but without --t-max a boundary section has no "
           "last time.")
       .system("SYSTEM", "Built-in name or TOML file")
       .settings()
@@ -134,9 +134,9 @@ void define_commands(CLI::App& app, Options& o) {
       .threads()
       .verbose()
       .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
-      .text("--on", o.on, "WHERE", "Where the section is taken (default: boundary)")
+      .text("--on", o.on, "WHERE", "Surface of the section (default: boundary)")
       .text("--direction", o.direction, "both|positive|negative", "Crossings that count")
-      .text("--points", o.points, "N", "Most points of an orbit (default 1000)")
+      .text("--points", o.points, "N", "Largest number of points of an orbit (default 1000)")
       .text("--orbits", o.orbits, "N",
             "Number of orbits (default: the listed starts, else at most 50)");
   Command(app, o, compute, "relax", "Find equilibria and the oscillations about them",
@@ -150,7 +150,7 @@ void define_commands(CLI::App& app, Options& o) {
       .sweep_that_goes_on()
       .text("--seed", o.overrides.seed, "N", "Seed of the random numbers")
       .text("--starts", o.starts, "N", "Number of starts (default 200)")
-      .flag("--saddles", o.saddles, "Look for saddles, too")
+      .flag("--saddles", o.saddles, "Search for saddles too")
       .threads()
       .verbose()
       .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)");
@@ -170,8 +170,8 @@ void define_commands(CLI::App& app, Options& o) {
       .text("--t-max", o.comparison_time, "T", "Time of the comparison (default: chosen)")
       .text("--position", o.overrides.position, "X,Y", "Start, in exact numbers: 1/10,-1/5")
       .text("--velocity", o.overrides.velocity, "U,V",
-            "Velocity of the start; only its direction counts where a speed is set")
-      .text("--trajectory", o.trajectory, "I", "Whose start is taken (default 0)")
+            "Velocity of the start; only its direction counts if a speed is set")
+      .text("--trajectory", o.trajectory, "I", "Trajectory whose start is used (default 0)")
       .text("--schemes", o.schemes, "A,B|all", "Schemes (default: a dozen, arkode and cvode)")
       .text("--steps", o.steps, "STEPS",
             "Steps, a,b,c or log:from:to:count (default: ten, halved from one to the next)")
@@ -189,7 +189,7 @@ void define_commands(CLI::App& app, Options& o) {
       "  carom orbit magnetic-square --hits 4 --tries 1e4\n"
       "\n"
       "Each orbit is listed once, without other starts, its reversal and symmetric copies. Holes "
-      "are closed.\n"
+      "are treated as walls.\n"
       "Between discs in the open plane every sequence of discs is tried. Elsewhere the search "
       "starts from random orbits that nearly close, and may miss some.")
       .system("SYSTEM", "Built-in name or TOML file")
@@ -198,9 +198,9 @@ void define_commands(CLI::App& app, Options& o) {
       .text("--seed", o.overrides.seed, "N", "Seed of the random numbers")
       .threads()
       .verbose()
-      .text("--hits", o.hits, "N", "Most hits of an orbit (default 6)")
+      .text("--hits", o.hits, "N", "Largest number of hits of an orbit (default 6)")
       .text("--starts", o.starts, "N",
-            "Random orbits whose recurrences are looked at (default 20000)")
+            "Random orbits in which recurrences are sought (default 20000)")
       .text("--tries", o.tries, "N",
             "Recurrences that are tried for each number of hits (default 2000)")
       .flag("--zeta", o.zeta,
@@ -242,7 +242,7 @@ void define_commands(CLI::App& app, Options& o) {
       "\n"
       "Without -o the film is NAME.gif in this folder. A run is shown until its hundredth hit, a "
       "system for twenty mean flights.\n"
-      "It needs Python with matplotlib; .mp4 needs ffmpeg as well.")
+      "It needs Python with matplotlib; .mp4 also needs ffmpeg.")
       .system("SOURCE", "Archive of carom run, TOML file or built-in name")
       .text("--frames", o.frames, "N", "Number of frames (default 100)")
       .text("--fps", o.fps, "N", "Frames a second (default 20)")
@@ -253,8 +253,8 @@ void define_commands(CLI::App& app, Options& o) {
           "  carom page\n"
           "  carom page mushroom --set field.B=0.3     with that system\n"
           "\n"
-          "What the page shows is what carom computes, to the last bit. On a terminal the page is "
-          "opened; its address is printed everywhere.")
+          "The page shows the same numbers as carom, to the last bit. Its address is printed; on a "
+          "terminal the page is opened.")
       .system("SYSTEM", "Built-in name or TOML file to begin with")
       .settings();
   Command(app, o, data, "merge", "Add the parts of an ensemble",

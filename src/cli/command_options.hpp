@@ -89,9 +89,8 @@ class Command {
   /// A command that can be repeated for values of a key.
   Command& sweep() {
     app_->add_option("--sweep", options_.sweep,
-                     "Values of a key of the system, a row each: KEY=lin:FROM:TO:COUNT, "
-                     "log:FROM:TO:COUNT or "
-                     "list:a,b,c; twice: a plane")
+                     "Values of a key of the system, one row for each: KEY=lin:FROM:TO:COUNT, "
+                     "log:FROM:TO:COUNT or list:a,b,c; twice: a plane")
         ->type_name("KEY=VALUES")
         ->allow_extra_args(false)
         ->take_all();
@@ -101,23 +100,23 @@ class Command {
   Command& sweep_that_goes_on() {
     sweep();
     return text("--resume", options_.resume, "FILE.h5",
-                "Go on with a stored sweep instead of SYSTEM");
+                "Continue a stored sweep instead of SYSTEM");
   }
   /// What changes the particles' motion.
   Command& motion() {
     SystemOverrides& o = options_.overrides;
     text("--seed", o.seed, "N", "Seed of the random numbers");
     text("--t-max", o.t_max, "T", "Last time");
-    text("--collisions", o.collisions, "N", "Most collisions of a trajectory");
+    text("--collisions", o.collisions, "N", "Largest number of collisions of a trajectory");
     text("--position", o.position, "X,Y", "Start, in exact numbers: 1/10,-1/5");
     text("--velocity", o.velocity, "U,V",
-         "Velocity of the start; only its direction counts where a speed is set");
+         "Velocity of the start; only its direction counts if a speed is set");
     return text("--engine", options_.engine, "auto|events|steps", "What moves the particles");
   }
   Command& threads() { return text("--threads", options_.threads, "N", "Threads (default: all)"); }
   Command& verbose() {
     return flag("--verbose", options_.verbose,
-                "All rows of tables; what decisions took, lanes, the digest");
+                "All rows of tables, the effort of decisions and lanes, the digest");
   }
   Command& ensemble(bool reports_times = true) {
     SystemOverrides& o = options_.overrides;
@@ -129,7 +128,7 @@ class Command {
   /// Options of ensembles that can be continued, divided and shared between processes.
   Command& parts() {
     text("--resume", options_.resume, "FILE.h5",
-         "Go on with a stored ensemble; SYSTEM may be left out");
+         "Continue a stored ensemble; SYSTEM may be left out");
     text("--checkpoint", options_.checkpoint, "SECONDS",
          "Time between checkpoints of an archive (default 10 s)");
     text("--shard", options_.shard, "K/N", "Only part K (from 1) of N parts of the trajectories");

@@ -80,7 +80,7 @@ Place option_place(const char* option) { return Place{"command line", 0, 0, opti
 
 std::uint64_t whole_number(const std::string& text, const char* option, std::uint64_t least) {
   const Place place = option_place(option);
-  const std::string expected = fmt::format("a whole number from {} on", least);
+  const std::string expected = fmt::format("a whole number of at least {}", least);
   const auto number = carom::whole_number(ExactNumber(text, place));
   if (!number)
     throw InputError(place, fmt::format("'{}' is not a whole number below 2^64", text), expected);

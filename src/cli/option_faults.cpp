@@ -64,7 +64,7 @@ std::string unknown_option(const CLI::App& app, const CLI::App& command, int arg
     if (!others.empty() && &app == &command) {
       const auto chosen = app.get_subcommands();
       const std::string of = chosen.empty() ? others.front() : chosen.front()->get_name();
-      return name + " stands before the command: write carom " + of + " SYSTEM " + name;
+      return name + " comes before the command: write carom " + of + " SYSTEM " + name;
     }
     if (!others.empty()) {
       const auto longer = std::find_if(known.begin(), known.end(), [&](const std::string& one) {

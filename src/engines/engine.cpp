@@ -73,8 +73,8 @@ std::string why_one_by_one(const System& system, const EngineOptions& options) {
   if (!system.injections.empty()) return "particles enter later ([[injection]])";
   if (scatters(*system.table)) return "walls reflect at random";
   if (!system.table->regions.empty()) return "particles pass walls of regions";
-  if (options.surface) return "crossings of a surface are looked for";
-  if (options.energy && !is_free(system)) return "energies are looked at after each step";
+  if (options.surface) return "crossings of a surface are located";
+  if (options.energy && !is_free(system)) return "energies are checked after each step";
   if (options.frame) return "a frame of deviations is followed";
   if (!options.deviations.empty() && !is_free(system))
     return system.of_discs() ? "deviations of discs are followed"

@@ -58,7 +58,8 @@ void describe_ends(V& v, Result& result, const System& system) {
   v.number({"collisions", "1", "Reflections of all particles"}, result.collisions);
   v.number_if(system.of_discs(), {"contacts", "1", "Contacts of hard discs, each pair once"},
               result.contacts);
-  v.number({"digest", "1", "Sum of a hash of each trajectory's end: other ends, another digest"},
+  v.number({"digest", "1",
+            "Sum of a hash of each trajectory's end: different ends give a different digest"},
            result.digest);
   describe_integration(v, result, system);
 }

@@ -49,7 +49,7 @@ std::string why_not_stationary(const System& system) {
   const Dynamics& d = system.dynamics;
   if (!d.forces || d.forces->empty()) return {};
   if (system.particles.size() > 1 && (system.of_discs() || d.forces->interacts()))
-    return "their energy is divided among particles that act on each other by a rule";
+    return "the energy is divided among interacting particles by a rule";
   if (d.forces->external() && system.energies.empty())
     return "they have one speed where the potential differs";
   return {};

@@ -138,7 +138,7 @@ Chain spline(const std::vector<ExactPoint>& written, const Place& place, const L
     chord.push_back(std::sqrt(dot(d, d)));
     if (!(chord.back() > 0.0))
       throw InputError(written[side[k]].x.place(), "the same point twice in a row",
-                       "points that differ; the curve closes by itself");
+                       "different points; the curve closes automatically");
   }
   const std::vector<Vector> slope = slopes_at(points, chord);
   const std::vector<std::string> names = numbered(layout.stem, points.size());

@@ -32,7 +32,7 @@ struct AsStored {
                              s.counterclockwise);
   }
   WallOf<Twofold> operator()(const geometry::Bezier&) const {
-    throw InternalError("the error of an orbit was asked for beside a Bézier curve");
+    throw InternalError("the error of an orbit was requested beside a Bézier curve");
   }
   WallOf<Twofold> operator()(const geometry::EllipticArc& s) const {
     const TwofoldVector from = as_twofold(s.from), chord = as_twofold(s.to) - from,

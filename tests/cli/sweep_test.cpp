@@ -272,7 +272,7 @@ TEST(Sweep, KeepsTheDoubtsOfSplitting) {
   const Shell shell;
   const std::string command =
       "$carom escape three-disc --splitting 1,2 --population 20 --repetitions 2 --quiet ";
-  const char* const doubt = "populations of 20 trajectories: errors and intervals are valid from";
+  const char* const doubt = "populations of 20 trajectories: errors and intervals need at least";
   const Outcome alone = shell(command + "--json");
   EXPECT_NE(alone.err.find(doubt), std::string::npos) << alone.err;
   EXPECT_NE(json_value(alone.out, "note").find(doubt), std::string::npos) << alone.out;

@@ -157,7 +157,7 @@ def test_bad_values_are_bad_input(call, message):
     ({"B": [1, object()]}, "'B' cannot be <object"),
     ({"B": ""}, "cannot read the values"),
     ({"B": [1], "points": [1]}, "it means nothing to carom escape"),
-    ({"t_max": [1, 2]}, "--t-max sets it, too"),
+    ({"t_max": [1, 2]}, "--t-max also sets it"),
     ({"integrator.step": [1, 2]}, "no force acts"),
     ({"table.radius": [1, -1]}, "--sweep: table.radius = -1"),
 ])  # fmt: skip

@@ -81,7 +81,7 @@ template <>
 struct Fields<RelaxResult> {
   static constexpr std::tuple list{
       field("starts", "1", "Starts that were followed", &RelaxResult::starts),
-      field("without", "1", "Searches that came to no equilibrium", &RelaxResult::without)};
+      field("without", "1", "Searches that found no equilibrium", &RelaxResult::without)};
 };
 
 /// Minimises the potential energy from the starts of the system (docs/physics/equilibria.md). The

@@ -48,14 +48,14 @@ struct ReturnHitsBin : DistributionBin {};
 template <>
 struct Fields<ReturnTimeBin> {
   static constexpr auto list = distribution_fields<ReturnTimeBin>(
-      "time", "1/time", "Returns after from <= t < to", "Share of all excursions, per time",
-      "Share of the excursions that last `from` or longer");
+      "time", "1/time", "Returns after from <= t < to", "Fraction of all excursions, per time",
+      "Fraction of the excursions that last `from` or longer");
 };
 template <>
 struct Fields<ReturnHitsBin> {
   static constexpr auto list = distribution_fields<ReturnHitsBin>(
-      "1", "1", "Returns with from <= n < to hits, the last one counted",
-      "Share of all excursions, per hit", "Share of the excursions of `from` hits or more");
+      "1", "1", "Returns with from <= n < to hits, the last one included",
+      "Fraction of all excursions, per hit", "Fraction of the excursions of `from` hits or more");
 };
 
 struct Returns {

@@ -57,8 +57,10 @@ struct Fields<ParticleProgress> {
           "vx", "length/time", "Velocity", [](auto& p) -> auto& { return p.state.velocity.x; }),
       field_as<double>(
           "vy", "length/time", "Velocity", [](auto& p) -> auto& { return p.state.velocity.y; }),
-      later(field("speed", "length/time",
-                  "What reflections keep; the velocity may differ from it by rounding", &P::speed)),
+      later(field(
+          "speed", "length/time",
+          "Speed that reflections conserve; the length of the velocity may differ by rounding",
+          &P::speed)),
       field_as<Whole>(
           "cell_first", "1", "Cell of the lattice",
           [](auto& p) -> auto& { return p.state.cell.first; }),
@@ -85,17 +87,16 @@ struct Fields<ParticleProgress> {
           "energy_change", "energy", "Change of the energy since the start",
           [](auto& p) -> auto& { return p.energy.change; })),
       later(field_as<double>(
-          "energy_largest", "energy", "Largest change that was seen",
+          "energy_largest", "energy", "Largest change seen",
           [](auto& p) -> auto& { return p.energy.largest; })),
       later(field_as<double>(
-          "energy_kinetic", "energy", "Largest kinetic energy that was seen",
+          "energy_kinetic", "energy", "Largest kinetic energy seen",
           [](auto& p) -> auto& { return p.energy.kinetic; })),
       later(field_as<double>(
-          "energy_change_low", "energy", "What a double does not hold of energy_change",
+          "energy_change_low", "energy", "Trailing double of energy_change",
           [](auto& p) -> auto& { return p.energy.change_low; })),
       later(field_as<double>(
-          "energy_last", "energy",
-          "Energy after the latest step, of all that it is integrated with; NaN: not known",
+          "energy_last", "energy", "Energy of its group after the latest step; NaN: not known",
           [](auto& p) -> auto& { return p.energy.last; })),
       field_as<Whole>("fate", "1", "Index into the attribute `names`", &P::fate)};
 };
@@ -122,8 +123,8 @@ template <>
 struct Fields<Evaluations> {
   static constexpr std::tuple list{
       later(field("evaluations_going_on", "1",
-                  "Evaluations from which a run that goes on counts: but those for states within "
-                  "the steps under way",
+                  "Evaluations from which a continued run counts, without those for states within "
+                  "unfinished steps",
                   &Evaluations::count)),
       later(field_as<std::uint64_t>(
           "predicted", "1",

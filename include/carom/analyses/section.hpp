@@ -54,8 +54,8 @@ struct Fields<SectionResult> {
       field("orbits", "1", "Trajectories followed to their end", &R::orbits),
       field("points", "1", "Points of all orbits", &R::points),
       field("collisions", "1", "Reflections of all orbits", &R::collisions),
-      field("incomplete", "1", "Particles with fewer points than asked for", &R::incomplete),
-      field("digest", "1", "Sum of a hash of each orbit's points: equal digests, equal bits",
+      field("incomplete", "1", "Particles with fewer points than requested", &R::incomplete),
+      field("digest", "1", "Sum of a hash of each orbit's points: equal digests mean equal bits",
             &R::digest)};
 };
 

@@ -35,7 +35,7 @@ struct Fields<EnergyError> {
             "Largest change of an energy until the end, relative to the largest kinetic energy",
             &EnergyError::end),
       field("energy_error.largest", "1",
-            "Largest change of an energy that was seen, relative to the largest kinetic energy",
+            "Largest change of an energy seen, relative to the largest kinetic energy",
             &EnergyError::largest)};
 };
 

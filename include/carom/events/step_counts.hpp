@@ -39,13 +39,11 @@ struct Fields<StepCounts> {
   static constexpr std::tuple list{
       field("steps", "1", "Steps and parts of steps", &S::steps),
       field("force_evaluations", "1", "Evaluations of the forces", &S::force_evaluations),
-      field("unresolved_steps", "1",
-            "Steps longer than the forces they swept allow, which were counted", &S::unresolved),
-      later(field("halved_steps", "1",
-                  "Parts of steps that were halved until they resolve the forces", &S::halved)),
-      field("first_unresolved", "time",
-            "When the earliest step that was counted as unresolved began", &S::first_unresolved),
-      later(field("shortest_step", "time", "The shortest part of a step that was halved; 0: none",
+      field("unresolved_steps", "1", "Steps too long to resolve the forces", &S::unresolved),
+      later(field("halved_steps", "1", "Parts of halved steps", &S::halved)),
+      field("first_unresolved", "time", "Start of the earliest unresolved step",
+            &S::first_unresolved),
+      later(field("shortest_step", "time", "The shortest part of a halved step; 0: none",
                   &S::shortest_part))};
 };
 

@@ -43,7 +43,7 @@ struct Fields<LaneEffort> {
       field("lanes_hits", "1", "Hits decided and made in lanes", &E::hits),
       field("lanes_left", "1", "Hits and ends left to the scalar engine", &E::scalar),
       field("lanes_steps", "1", "Steps of single lanes", &E::steps),
-      field("lanes_idle", "1", "Of these, those that stood idle", &E::idle)};
+      field("lanes_idle", "1", "Steps of lanes that were idle", &E::idle)};
 };
 
 }  // namespace carom

@@ -106,15 +106,15 @@ struct Fields<PeriodicOrbit> {
       field("length", "length", "Length", &O::length),
       field("action", "mass*length^2/time", "Closed integral of p dq", &O::action),
       field("trace", "1", "Trace of the tangent map", &O::trace),
-      field("position_error", "length", "Bound of the error of the hits' places",
+      field("position_error", "length", "Bound of the error of the hits' positions",
             &O::position_error),
       field("length_error", "length", "Bound of the error of the length", &O::length_error),
       field("trace_error", "1", "Estimated error of the trace", &O::trace_error),
       field_as<double>(
-          "reduced_period", "time", "Period of the part that symmetry leaves",
+          "reduced_period", "time", "Period of the part that symmetry repeats",
           [](auto& o) -> auto& { return o.reduced.period; }),
       field_as<double>(
-          "reduced_trace", "1", "Trace of its tangent map, turned back",
+          "reduced_trace", "1", "Trace of its tangent map, mapped back by the symmetry",
           [](auto& o) -> auto& { return o.reduced.trace; }),
       field_as<double>(
           "reduced_multiplier", "1", "Its real eigenvalue of largest size; NaN: none",
@@ -122,7 +122,7 @@ struct Fields<PeriodicOrbit> {
       field_as<std::int32_t>(
           "reduced_order", "1", "Number of such parts",
           [](auto& o) -> auto& { return o.reduced.order; }),
-      field("copies", "1", "Orbits that symmetries and reversal make of it", &O::copies),
+      field("copies", "1", "Number of different orbits under symmetries and reversal", &O::copies),
       field("stability", "1", "Index into the attribute `stabilities` of the group", &O::stability),
       field("family", "1", "1: one member of a family", &O::family)};
 };

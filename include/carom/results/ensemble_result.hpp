@@ -55,10 +55,10 @@ struct Fields<TrajectoryRecord> {
       field("vy", "length/time", "Velocity at the start", &R::vy),
       field("fate", "1", "Index into the attribute `names`", &R::fate),
       field("hole", "1", "Index into the attribute `names`, -1: did not escape", &R::hole),
-      field("t", "time", "End: escape, last hit of an unbounded one, else the time reached",
+      field("t", "time", "Time of the end: escape, last hit if unbounded, else the time reached",
             &R::time),
       field("hits", "1", "Reflections", &R::hits),
-      later(field("wall", "1", "Of the start, -1: it lies off the walls", &R::wall)),
+      later(field("wall", "1", "Wall of the start, -1: off the walls", &R::wall)),
       later(field("s", "length", "Start: arc length along its wall, NaN: off walls", &R::s)),
       later(field("v_parallel", "length/time", "Start: velocity along its wall, NaN: off walls",
                   &R::v_parallel))};
@@ -69,8 +69,8 @@ struct ExponentFields {
   static constexpr auto list = std::tuple_cat(
       Fields<R>::list,
       std::tuple{
-          later(field("lambda", "1/time",
-                      "Finite-time exponent, NaN: ended before it was looked at", &R::lambda)),
+          later(field("lambda", "1/time", "Finite-time exponent, NaN: ended before it was measured",
+                      &R::lambda)),
           later(field("sali", "1", "Angle between two deviations (SALI)", &R::sali)),
           later(field("regularity", "1", "Index into the attribute `names`", &R::regularity))});
 };

@@ -53,7 +53,7 @@ std::string head_text(const System& system, const Comparison& result) {
   else
     text += fmt::format("reference: {} with steps of {:.4g}, error {:.1e}\n", result.reference,
                         result.reference_step, result.reference_error);
-  text += folded(fmt::format("error: the larger one of |dx|/{:.4g} and |dv|/{:.4g}, the largest at "
+  text += folded(fmt::format("error: the larger of |dx|/{:.4g} and |dv|/{:.4g}, the largest at "
                              "eight times in the second half",
                              result.size, result.speed),
                  "  ") +
@@ -236,7 +236,7 @@ std::string compare_text(const System& system, const Comparison& result, const s
   text += schemes_table(result) + "\n" + best_text(result) + notes_text(result);
   if (verbose)
     for (const ComparedScheme& scheme : result.schemes) text += runs_table(scheme);
-  if (!result.complete) text += "interrupted: the schemes that were finished\n";
+  if (!result.complete) text += "interrupted: only the finished schemes\n";
   text += grounds_text("state (reference), orders, way back, areas", "other starts, later times");
   if (!verbose) text += "--verbose prints every step";
   text += archive.empty() ? (verbose ? "-o FILE.h5 stores all\n" : ", -o FILE.h5 stores them\n")

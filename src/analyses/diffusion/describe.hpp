@@ -29,7 +29,7 @@ void describe_moments(V& v, Sums& sums, const System& system) {
       return sums.of(i / times, i % times);
   };
   v.kept_each(
-      {"count", "1", "Particles there at t"},
+      {"count", "1", "Particles still inside at t"},
       count, [&](std::size_t i) -> auto& { return row(i).count; });
   v.computed({"square", "length^2", "Sum of their squared displacements"}, [&] {
     std::vector<double> rounded;
@@ -38,8 +38,8 @@ void describe_moments(V& v, Sums& sums, const System& system) {
   });
   v.sums(
       {"square_digits", "length^2",
-       "The same without rounding: in each row `digits` numbers, the i-th of them times "
-       "2^(32 (first + i) - 1074)"},
+       "The same as exact sums: in each row `digits` numbers, the i-th of them times 2^(32 (first "
+       "+ i) - 1074)"},
       count, [&](std::size_t i) -> auto& { return row(i).square; });
   v.sums(
       {"fourth_digits", "length^4",
@@ -78,7 +78,7 @@ void describe_free_paths(V& v, Sums& sums) {
       FreePathSums::groups, [&](std::size_t g) -> auto& { return of(g).hits; });
   v.sums(
       {"path_digits", "length",
-       "Total length of their flights, without rounding: digits as in /msd_groups"},
+       "Total length of their flights, as an exact sum: digits as in /msd_groups"},
       FreePathSums::groups, [&](std::size_t g) -> auto& { return of(g).path; });
   const results::CountLabels flights{"length", "Flights of the group in this bin",
                                      "Flights of each group beyond the limit"};

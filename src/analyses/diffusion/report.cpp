@@ -82,7 +82,7 @@ std::string horizon_text(const Horizon& horizon) {
   const auto& list = horizon.corridors.list;
   std::string text =
       fmt::format("\nFree corridors: {}{}\n   along                          width\n", list.size(),
-                  horizon.corridors.complete ? "" : " found, not all directions looked at");
+                  horizon.corridors.complete ? "" : " found, not all directions searched");
   for (std::size_t i = 0; i < std::min(list.size(), corridors_in_text); ++i)
     text += fmt::format("   [{}, {}] = ({:.6g}, {:.6g}){:>{}}\n", list[i].direction.first,
                         list[i].direction.second, list[i].along.x, list[i].along.y,
@@ -161,7 +161,8 @@ DiffusionSummary summary_of(const System& system, const DiffusionResult& result)
                      [&](const MomentPoint& p) { return p.t <= summary.fit->window.to; });
     if (last != summary.points.rend() && last->count < result.trajectories)
       add(summary.note,
-          "the cap on hits ended particles before the window's end: those that hit least are left");
+          "the cap on hits ended particles before the window's end: only those with few hits "
+          "remain");
   }
   add(summary.note, repeated_starts(system));
   add(summary.note, correlation_note(system));

@@ -60,14 +60,14 @@ std::string table_of(const FreePathDistribution& d, const EnsembleContext& conte
   }
   return fitted({{"length l", times_text(lengths)},
                  {"density in the bin from l", density},
-                 {"share of l or longer", longer}}) +
+                 {"fraction of l or longer", longer}}) +
          rows_text(d.bins.size(), context);
 }
 
 std::string tail_text(const FreePathDistribution& d, const char* amplitude) {
   if (!d.tail) return {};
   return fmt::format(
-      "share of longer flights ~ l^-a, {:.6g} <= l <= {:.6g}: a = {}\n{} at l = {:.6g}: {}\n",
+      "fraction of longer flights ~ l^-a, {:.6g} <= l <= {:.6g}: a = {}\n{} at l = {:.6g}: {}\n",
       d.tail->from, d.tail->to, cli::with_error(d.tail->exponent), amplitude, d.tail->to,
       with_error(d.tail->amplitude));
 }
@@ -103,11 +103,11 @@ std::string free_paths_text(const System& system, const DiffusionResult& result,
   if (const std::optional<double> expected = expected_mean(system, result))
     text += fmt::format("   (pi area / perimeter = {:.6g})", *expected);
   text += "\n";
-  if (corridors) text += tail_text(paths.between, "l^2 times the share, over the mean,");
+  if (corridors) text += tail_text(paths.between, "l^2 times the fraction, over the mean,");
   text += fmt::format("\nFree paths from the start: {} flights, {} of {:.6g} or longer\n",
                       grouped(paths.at_start.all), grouped(paths.at_start.longer), paths.limit);
   text += table_of(paths.at_start, context);
-  if (corridors) text += tail_text(paths.at_start, "l times the share");
+  if (corridors) text += tail_text(paths.at_start, "l times the fraction");
   return text;
 }
 

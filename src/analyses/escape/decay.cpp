@@ -261,7 +261,7 @@ DecayFit no_fit(const char* why) {
   return none;
 }
 constexpr const char* dependent =
-    "fits take independent starts (kind = \"uniform\"), and quasi-random ones are not";
+    "fits need independent starts (kind = \"uniform\"), and quasi-random starts are not";
 
 }  // namespace
 
@@ -288,7 +288,7 @@ DecayFit fit_decay_by_hits(const SurvivalCounts& counts) {
 DecayFit fit_decay(const SurvivalCounts& counts, double until, std::optional<DecayWindow> window) {
   if (!counts.parts.empty()) return no_fit(dependent);
   if (counts.capped > 0)
-    return no_fit("trajectories ended by the cap on hits would have stayed for unknown times");
+    return no_fit("trajectories ended by the cap on hits would have stayed for an unknown time");
   return fit_decay(counts.gone_at, counts.followed(), counts.survived, until, window);
 }
 

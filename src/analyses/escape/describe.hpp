@@ -14,22 +14,22 @@ namespace carom::analyses {
 
 template <class V, class Counts>
 void describe_gone(V& v, Counts& c) {
-  v.group("survival", "Share of the non-singular trajectories still there");
+  v.group("survival", "Fraction of the non-singular trajectories still inside");
   v.rows([&] { return survival(c); });
-  v.kept_column({"gone", "1", "Trajectories gone after the time before and by t"}, c.gone_in,
+  v.kept_column({"gone", "1", "Trajectories that left after the previous time and by t"}, c.gone_in,
                 c.times.size());
-  v.group("escape_times", "Trajectories gone in fine bins of time, 64 to a factor of two");
-  v.bins({"from", "time", "Start of the bin, in it; it ends where the next one starts"},
-         {"gone", "1", "Trajectories gone in it"}, c.gone_at);
-  v.group("escape_hits", "Trajectories gone in fine bins of hits, 64 to a factor of two");
+  v.group("escape_times", "Trajectories that left, in fine bins of time, 64 to a factor of two");
+  v.bins({"from", "time", "Start of the bin, included; it ends where the next one starts"},
+         {"gone", "1", "Trajectories that left in it"}, c.gone_at);
+  v.group("escape_hits", "Trajectories that left, in fine bins of hits, 64 to a factor of two");
   v.bins({"from", "1",
-          "Start of the bin, in it; it holds hits less one, and ends where the next one starts"},
-         {"gone", "1", "Trajectories gone in it"}, c.gone_after);
-  v.group("survival_hits", "Share of the non-singular trajectories still there after n hits");
+          "Start of the bin, included, in hits minus one; it ends where the next one starts"},
+         {"gone", "1", "Trajectories that left in it"}, c.gone_after);
+  v.group("survival_hits", "Fraction of the non-singular trajectories still inside after n hits");
   v.rows([&] { return survival_by_hits(c); });
-  v.first_rows(
-      {"gone", "1", "Trajectories gone after more hits than the number before and at most n"},
-      c.gone_in_hits, [&] { return survival_by_hits(c).size(); });
+  v.first_rows({"gone", "1",
+                "Trajectories that left after more hits than the previous number and at most n"},
+               c.gone_in_hits, [&] { return survival_by_hits(c).size(); });
   v.group("rate", "Escape rate: -dP/dt averaged over (from, to]");
   v.rows([&] { return escape_rate(c); });
 }
@@ -38,7 +38,7 @@ void describe_gone(V& v, Counts& c) {
 template <class V, class Counts>
 void describe_replicates(V& v, Counts& c) {
   if (!v.group_if(!c.parts.empty(), "replicates",
-                  "Trajectories gone of each replicate of quasi-random starts, in rows"))
+                  "Trajectories that left, in rows by replicate of quasi-random starts"))
     return;
   if constexpr (V::reads) c.parts.assign(replicates, {c, 0});
   const auto table = [&](const Label& label, std::size_t each, auto at) {
@@ -73,7 +73,7 @@ void describe(V& v, Result& result, const System& system) {
   v.number({"collisions", "1", "Reflections of all trajectories"}, c.collisions);
   v.kept({"most_hits", "1", "Most reflections of a single trajectory"}, c.most_hits);
   v.kept({"fewest_hits_of_survivor", "1",
-          "Fewest reflections of a survivor that is not pinned; 2^64 - 1: there is none"},
+          "Fewest reflections of a survivor that is not pinned; 2^64 - 1: none"},
          c.fewest_hits_of_survivor);
   v.number_if(system.of_discs(), {"contacts", "1", "Contacts of hard discs, each pair once"},
               c.contacts);
@@ -81,7 +81,8 @@ void describe(V& v, Result& result, const System& system) {
               {"energy_change", "energy", "The largest change of a particle's energy"},
               c.energy_change);
   results::describe_integration(v, result, system);
-  v.number({"digest", "1", "Sum of a hash of each trajectory's end: other ends, another digest"},
+  v.number({"digest", "1",
+            "Sum of a hash of each trajectory's end: different ends give a different digest"},
            result.digest);
   v.named_column({"holes", "1", "Escapes by hole; names in the attribute `names`"}, c.hole_escapes,
                  [&] { return hole_names(*system.table); });

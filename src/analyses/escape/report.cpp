@@ -96,7 +96,7 @@ std::string fates(const System& system, const SurvivalCounts& counts) {
   const std::vector<std::string> holes = hole_names(*system.table);
   for (std::size_t i = 0; holes.size() > 1 && i < holes.size(); ++i)
     line("  by " + holes[i], counts.hole_escapes[i], "", true);
-  line("  unbounded", counts.unbounded, "no wall follows any more", false);
+  line("  unbounded", counts.unbounded, "no wall follows", false);
   line("survived", counts.survived, "", true);
   line("  pinned", counts.pinned, "circles that never hit", false);
   line("  capped", counts.capped, "by the limit on hits", false);

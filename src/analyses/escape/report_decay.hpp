@@ -20,6 +20,6 @@ std::string formula_of(DecayLaw, bool with_plateau, const char* variable);
 std::string rate_name(DecayLaw, bool local);
 /// A p-value below it says that the law is not that of the data.
 inline constexpr double hardly = 1e-3;
-inline constexpr const char* not_told_apart = "The data do not tell these two laws apart.\n";
+inline constexpr const char* not_told_apart = "The data cannot distinguish these two laws.\n";
 
 }  // namespace carom::cli

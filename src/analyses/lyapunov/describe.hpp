@@ -20,11 +20,12 @@ void describe_extrapolated(V& v, const std::string& key, const char* unit, const
     v.kept({name.c_str(), unit, what}, value);
   };
   number(key, e.limit.value, text);
-  number(key + "_stderr", e.limit.error, "Its standard error, by repetitions");
-  number(key + "_extrapolation", e.extrapolation, "Its distance from that at the smallest kick");
+  number(key + "_stderr", e.limit.error, "Its standard error, from the repetitions");
+  number(key + "_extrapolation", e.extrapolation,
+         "Its distance from the value at the smallest kick");
   const std::string kicks = key + "_at_kicks", errors = kicks + "_stderr";
   v.kept_each(
-      {kicks.c_str(), unit, "It at each kick"},
+      {kicks.c_str(), unit, "Its value at each kick"},
       kick_sizes, [&](std::size_t i) -> auto& { return e.at_kick[i].value; });
   v.kept_each(
       {errors.c_str(), unit, "Their standard errors"},
@@ -34,8 +35,8 @@ void describe_extrapolated(V& v, const std::string& key, const char* unit, const
 template <class V, class Repeller>
 void describe_repeller(V& v, Repeller& repeller) {
   if (!v.group_if(repeller.has_value(), "repeller",
-                  "Exponent of the orbits that never leave, by populations that are kept alive by "
-                  "splitting"))
+                  "Exponent of the orbits that never leave, from populations in which survivors "
+                  "are copied"))
     return;
   if constexpr (V::reads) repeller.emplace();
   auto& r = *repeller;
@@ -65,7 +66,7 @@ void describe_estimates(V& v, const LyapunovResult& result, const System& system
   number("lambda_stderr", "1/time", "Its standard error", e.per_time.error);
   number("per_collision", "1", "Largest exponent per hit", e.per_hit.value);
   number("per_collision_stderr", "1", "Its standard error", e.per_hit.error);
-  number("chaotic_share", "1", "Share of the orbits that are chaotic; NaN: the run does not tell",
+  number("chaotic_share", "1", "Fraction of the orbits that are chaotic; NaN: the run is too short",
          e.chaotic_share.value);
   number("chaotic_share_stderr", "1", "The larger side of its 95 % interval over 1.96",
          e.chaotic_share.error);
@@ -189,17 +190,18 @@ void describe_growth(V& v, Sums& growth) {
   v.group("lyapunov_sums",
           "Sums over orbits of the growth of ln|deviation| in blocks of the window");
   v.number({"orbits", "1", "Particles that were followed to the end of the window"}, t.orbits);
-  v.kept({"chaotic", "1", "Those found chaotic"}, t.chaotic);
+  v.kept({"chaotic", "1", "Orbits found chaotic"}, t.chaotic);
   v.kept({"linear", "1",
-          "Those whose deviations had grown no more than linearly; the others are undecided"},
+          "Orbits whose deviations grew no more than linearly; the others are undecided"},
          t.linear);
   v.kept({"blocks", "1", "Blocks of the window"}, blocks);
   v.kept_each(
-      {"chaotic_at", "1", "Found chaotic by the window's end / 2^7, / 2^6 ... and at the end"},
+      {"chaotic_at", "1",
+       "Orbits found chaotic by the window's end / 2^7, / 2^6 ... and at the end"},
       GrowthSums::looks, [&](std::size_t i) -> auto& { return t.chaotic_at[i]; });
   std::int64_t exponent = t.distribution.exponent(), first = t.distribution.first();
-  v.kept({"bin_exponent", "1", "The bins are 2^this wide, of growth"}, exponent);
-  v.kept({"bin_first", "1", "The first begins at that many widths"}, first);
+  v.kept({"bin_exponent", "1", "Width of the bins of growth: 2 to this power"}, exponent);
+  v.kept({"bin_first", "1", "Start of the first bin, in widths"}, first);
   if constexpr (V::reads) {
     v.expect(exponent >= GrowingHistogram::finest && exponent <= 1023 &&
                  GrowthSums::may_be_blocks(blocks),

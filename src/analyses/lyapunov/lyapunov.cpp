@@ -65,7 +65,7 @@ void refuse_no_exponents(const System& system) {
   if (system.run.spectrum) refuse_quasi_random(system, "a spectrum");
   if (system.run.spectrum && system.particles.size() > 1 && !act_on_each_other(system))
     throw InputError(Place{"", 0, 0, "run.spectrum"},
-                     "the particles do not act on each other: each has a spectrum of its own",
+                     "the particles do not interact: each has a separate spectrum",
                      "an interaction, or one particle");
   if (system.run.spectrum && system.particles.size() > most_particles_of_spectrum)
     throw InputError(

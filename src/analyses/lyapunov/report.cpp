@@ -50,7 +50,7 @@ std::string no_exponent(const System& system, const LyapunovResult& result,
   if (of_repeller(result)) return {};
   if (e.law == LyapunovEstimate::Law::unknown)
     return "deviations have grown no more than linearly, as on regular orbits, and the run is too "
-           "short to tell: take a longer one (--t-max)";
+           "short to decide: take a longer one (--t-max)";
   if (result.growth.totals().orbits > 0 || result.repeller) return {};
   if (result.trajectories == 0) return "no trajectory was followed";
   return fmt::format("all {} ended before t = {:.6g}, the end of the window",
@@ -73,15 +73,16 @@ std::string why_no_share(const GrowthSums& sums, const LyapunovEstimate& e) {
   const double end = sums.window().to;
   if (sums.totals().chaotic > 0)
     return fmt::format(
-        "a chaotic orbit shows itself after t = {:.3g} or so, and only runs three times as long "
-        "can tell regular orbits from chaotic ones (--t-max {:.0f})",
+        "a chaotic orbit shows after t = {:.3g} or so, and only runs three times as long can "
+        "separate regular orbits from chaotic ones (--t-max {:.0f})",
         e.waiting_time, std::ceil(3.2 * e.waiting_time));
   if (e.law == Law::linear)
     return fmt::format(
         "no orbit has shown chaos by t = {:.6g}: they are regular, or their exponents are below "
         "{:.2g}",
         end, e.would_show);
-  return fmt::format("no orbit has shown chaos by t = {:.6g}: longer runs can tell (--t-max)", end);
+  return fmt::format("no orbit has shown chaos by t = {:.6g}: longer runs can decide (--t-max)",
+                     end);
 }
 
 const char* law_of(const LyapunovEstimate& e) {
@@ -96,10 +97,10 @@ void add_notes_of(const RepellerExponent& r, std::vector<std::string>& notes) {
         with_error(r.early.limit.value, r.early.limit.error),
         with_error(r.late.limit.value, r.late.limit.error)));
   if (r.kicks_cost())
-    notes.push_back(fmt::format(
-        "kicked copies leave earlier than others: the share of survivors is off by {}({}) %, and "
-        "the exponent by an unknown part of that",
-        in_percent(r.kick_cost.value), in_percent(r.kick_cost.error, 1)));
+    notes.push_back(
+        fmt::format("kicked copies leave earlier than others: the fraction of survivors is off by "
+                    "{}({}) %, and the exponent by an unknown part of that",
+                    in_percent(r.kick_cost.value), in_percent(r.kick_cost.error, 1)));
   if (r.trapped > 0.0)
     notes.push_back(fmt::format(
         "a fraction {:.2g} of the starts can never leave; the populations leave them out",
@@ -175,11 +176,11 @@ std::vector<std::string> notes_of(const System& system, const LyapunovResult& re
   const std::uint64_t each = together(system) ? system.particles.size() : 1;
   const std::uint64_t followed = each * totals.orbits, met_none = uncounted(system, result);
   if (const std::uint64_t ended = result.trajectories - met_none - followed; ended > 0) {
-    std::string note =
-        fmt::format("{} ended before the end of the window; the numbers are those of {}",
-                    counted(ended, "particle"), counted(followed, "other"));
+    std::string note = fmt::format("{} ended before the end of the window; the numbers are for {}",
+                                   counted(ended, "particle"), counted(followed, "other"));
     if (result.capped > 0)
-      note += fmt::format("; more --collisions would let {} of them go on", grouped(result.capped));
+      note +=
+          fmt::format("; more --collisions would let {} of them continue", grouped(result.capped));
     notes.push_back(std::move(note));
   }
   if (!e.long_enough)
@@ -187,10 +188,10 @@ std::vector<std::string> notes_of(const System& system, const LyapunovResult& re
         "the error may be too small: it grows with the length of the blocks, or the run is short. "
         "Take a longer one, or more trajectories");
   if (!of_repeller(result) && e.regular_bias > 0.5 * e.per_time.error)
-    notes.push_back(fmt::format(
-        "some orbits may be regular or chaotic, the run is too short to tell. If they are regular, "
-        "lambda is too large by {:.2g}",
-        e.regular_bias));
+    notes.push_back(
+        fmt::format("some orbits may be regular or chaotic, the run is too short to decide. If "
+                    "they are regular, lambda is too large by {:.2g}",
+                    e.regular_bias));
   if (const std::string note = repeated_starts(system); !note.empty()) notes.push_back(note);
   for (std::string& note : drift_notes(system, result, e)) notes.push_back(std::move(note));
   return notes;

@@ -87,7 +87,7 @@ void write_proofs(const ArchiveFile& file, const ProofsOfOrbits& proofs) {
     for (const ProofOfOrbit& one : proofs.orbits) texts.push_back(one.*field);
     hdf5::write_texts(to, column, texts, what, name);
   }
-  const Handle hits = file.group("proof_hits", "Proven places of hits, orbit after orbit");
+  const Handle hits = file.group("proof_hits", "Proven positions of hits, orbit after orbit");
   hdf5::write_column<std::int32_t>(hits.get(), "orbit", orbit, {"1", "Row of /proofs"}, name);
   hdf5::write_texts(hits.get(), "x", x, {"length", "Position, in the home cell"}, name);
   hdf5::write_texts(hits.get(), "y", y, {"length", "Position, in the home cell"}, name);
@@ -142,7 +142,7 @@ template <>
 struct Fields<HitExtra> {
   static constexpr std::tuple list{
       field("orbit", "1", "Row of /orbits", &HitExtra::orbit),
-      field("half_turn", "1", "Half the angle that the flight turns by", &HitExtra::half_turn)};
+      field("half_turn", "1", "Half the angle by which the flight turns", &HitExtra::half_turn)};
 };
 
 ProofOfOrbit proof_of(const CertifiedPeriodicOrbit& orbit, int digits) {

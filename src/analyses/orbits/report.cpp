@@ -110,9 +110,9 @@ std::string zeta_text(const CycleExpansion& cycles) {
     columns[3].cells.push_back(fmt::format("{:.14f}", order.lambda));
   }
   return "\nescape rate and exponent of the repeller, by cycle expansion\n" + aligned(columns) +
-         fmt::format("  escape rate        {:.14f}, which the last order moved by {:.1e}\n",
+         fmt::format("  escape rate        {:.14f}, the last order changed it by {:.1e}\n",
                      cycles.escape_rate, cycles.error) +
-         fmt::format("  Lyapunov exponent  {:.14f}, which the last order moved by {:.1e}\n\n",
+         fmt::format("  Lyapunov exponent  {:.14f}, the last order changed it by {:.1e}\n\n",
                      cycles.lambda, cycles.lambda_error);
 }
 
@@ -186,7 +186,7 @@ std::string orbit_text(const System& system, const OrbitSearchResult& result,
   std::string text = heading(system);
   text += fmt::format("{} with at most {}{}\n", counted(result.orbits.size(), "periodic orbit"),
                       counted(context.most_hits, "hit"),
-                      result.complete ? "" : "  (interrupted: of the starts that were tried)");
+                      result.complete ? "" : "  (interrupted: from the starts tried so far)");
   std::vector<Column> columns{
       {"hits", {}}, {"period", {}}, {"multiplier", {}}, {"stability", {}, true}, {"copies", {}}};
   Column indices{"Maslov\nindex", {}};
@@ -214,7 +214,7 @@ std::string orbit_text(const System& system, const OrbitSearchResult& result,
   std::string starts;
   if (result.words > 0) starts = counted(result.words, "word") + " of discs";
   if (result.recurrences > 0)
-    starts += fmt::format("{}{} of random orbits", starts.empty() ? "" : " and ",
+    starts += fmt::format("{}{} in random orbits", starts.empty() ? "" : " and ",
                           counted(result.recurrences, "recurrence"));
   text +=
       folded(fmt::format("searched from {}: {} led to no orbit, {} to an orbit that a wall blocks",

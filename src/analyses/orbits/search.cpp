@@ -53,9 +53,9 @@ void check(const System& system, const OrbitSearchOptions& options) {
   if (system.table->walls.empty())
     refuse("table", "no orbit of a free particle closes without walls", "a table with walls");
   if (system.particles.size() != 1)
-    refuse("particles.count", "orbits are looked for of one particle", "1");
+    refuse("particles.count", "periodic orbits are found for one particle only", "1");
   if (system.dynamics.forces && system.dynamics.forces->external())
-    refuse("potential", "orbits are looked for without forces",
+    refuse("potential", "periodic orbits are found without forces only",
            "a free particle between walls, with or without a magnetic field");
   if (system.dynamics.everywhere)
     refuse("--engine", "orbits are found by exact flights", "auto or events");

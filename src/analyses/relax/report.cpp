@@ -98,7 +98,7 @@ std::string relax_text(const System& system, const RelaxResult& result, const st
   const std::size_t count = result.equilibria.size();
   text +=
       fmt::format("{} from {}{}\n", counted(count, "equilibrium"), counted(result.starts, "start"),
-                  result.complete ? "" : "  (interrupted: of those that were followed)");
+                  result.complete ? "" : "  (interrupted: from those followed so far)");
   if (result.without > 0)
     text += fmt::format("{} came to none\n", counted(result.without, "search"));
   const std::size_t shown = verbose ? count : std::min(count, equilibria_shown);

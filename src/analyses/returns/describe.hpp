@@ -22,7 +22,7 @@ void describe(V& v, Result& result, const System& system) {
       rows.push_back({bin});
     return rows;
   });
-  v.group("return_hits", "Hits from one of the wall to the next, the last one counted");
+  v.group("return_hits", "Hits from one hit of the wall to the next, which is included");
   v.rows([&] {
     std::vector<ReturnHitsBin> rows;
     for (const auto& bin : returns_of(result.sums, system.run.t_max / 2).hits.bins)
@@ -48,12 +48,11 @@ void describe(V& v, Result& result, const System& system) {
         return of(g).hits_in_half;
       });
   each(
-      {"fewest_away", "1",
-       "Fewest hits of an excursion that has not come back; 2^64 - 1: there is none"},
+      {"fewest_away", "1", "Fewest hits of an unfinished excursion; 2^64 - 1: none"},
       [&](std::size_t g) -> auto& { return of(g).fewest_away; });
   const char *const counted = "Returns of the group in this bin",
                     *const longer = "Excursions of half of the run or more, of each group",
-                    *const away = "Excursions that have not come back, of each group";
+                    *const away = "Unfinished excursions, of each group";
   results::describe_counts(
       v, "time_", {"time", counted, longer},
       ReturnSums::groups, [&](std::size_t g) -> auto& { return of(g).times; });

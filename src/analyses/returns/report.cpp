@@ -41,10 +41,10 @@ std::string table_of(const Distribution& d, const char* number, const EnsembleCo
   std::string text = "\n" +
                      fitted({{number, times_text(from)},
                              {"returns in the bin", counts},
-                             {fmt::format("share of {} or more", number), longer}}) +
+                             {fmt::format("fraction of {} or more", number), longer}}) +
                      rows_text(d.bins.size(), context);
   if (d.tail)
-    text += fmt::format("local slope: share ~ {}^-a, {:.6g} <= {} <= {:.6g}: a = {}\n", number,
+    text += fmt::format("local slope: fraction ~ {}^-a, {:.6g} <= {} <= {:.6g}: a = {}\n", number,
                         d.tail->from, number, d.tail->to, with_error(d.tail->exponent));
   return text;
 }
@@ -98,8 +98,8 @@ std::string result_text(const System& system, const ReturnsResult& result,
   if (starts_of_the_map(system))
     text += folded(fmt::format("starts: {}", drawn_in_place(system))) + '\n';
   if (const std::string why = why_not_stationary(with_starts_of_the_flow(system)); !why.empty())
-    text += folded(fmt::format("the starts are not stationary ({}): early excursions are theirs",
-                               why)) +
+    text += folded(fmt::format(
+                "the starts are not stationary ({}): early excursions depend on them", why)) +
             '\n';
   text += fmt::format("\nReturns to {}: {} that begin until t = {:.6g}\n",
                       system.table->wall(system.section.wall).name,

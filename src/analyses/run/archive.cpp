@@ -113,7 +113,8 @@ void RunArchive::Implementation::create(const LoadedSystem& loaded, const Proven
       loaded.system.particles.size() + injected_count(loaded.system, trajectory.value_or(0));
   {
     const Handle group = file.group(
-        "state", "The exact state after the last event of each particle; a run goes on from it");
+        "state",
+        "The exact state after the last event of each particle, from which a run continues");
     create_columns<ParticleProgress>(group.get(), particles, file.name());
     const Handle fate = hdf5::open_column(group.get(), "fate", file.name());
     hdf5::write_attribute(fate.get(), "names", fate_names(), file.name());

@@ -88,7 +88,7 @@ void refuse_other_times(const System& system, const StoredRun& stored) {
     if (p.fate == Fate::capped && (system.run.collisions == 0 || p.hits < system.run.collisions))
       throw InputError(Place{"command line", 0, 0, "--collisions"},
                        "particles that act on each other were stopped by the limit on collisions, "
-                       "each at a time of its own",
+                       "each at a different time",
                        "a new run with more --collisions");
 }
 
@@ -127,7 +127,7 @@ void say_if_ended(const StoredRun& stored) {
   const std::string how = same && fate == Fate::escaped ? "escaped"
                           : same                        ? fmt::format("ended ({})", name_of(fate))
                                                         : "ended";
-  warn(fmt::format("the orbit has already {}: nothing to go on with", how));
+  warn(fmt::format("the orbit has already {}: there is nothing to continue", how));
 }
 
 }  // namespace

@@ -69,8 +69,7 @@ std::string trust_text(const System& system, const RunEnd& particle) {
 
 std::string end_text(const System& system, const RunEnd& particle, bool interrupted) {
   std::string text = fmt::format("  status        {}", status_of(particle, interrupted));
-  if (particle.progress.fate == Fate::unbounded)
-    text += ": escaped to infinity, no wall follows any more";
+  if (particle.progress.fate == Fate::unbounded) text += ": escaped to infinity, no wall follows";
   const int hole = particle.progress.hole;
   if (hole >= 0)
     text += fmt::format(" through '{}'", system.table->holes[static_cast<std::size_t>(hole)].name);

@@ -47,7 +47,7 @@ class OpenedFile {
   Rows<Row> rows(std::vector<Row> (*read)(const std::string&)) const {
     return Rows<Row>([file = *this, read] {
       if (file.now() != file.at_first_)
-        throw InputError(Place{file.name_, 0, 0, ""}, "was changed since it was opened",
+        throw InputError(Place{file.name_, 0, 0, ""}, "changed since it was opened",
                          "the same archive, or carom.open once more");
       return read(file.name_);
     });
@@ -104,7 +104,7 @@ OutcomePointer open_run(const std::string& file) {
   outcome->result.seconds = stored.seconds;
   outcome->result.cpu_seconds = stored.cpu_seconds;
   if (system.dynamics.forces && !system.dynamics.forces->empty())
-    outcome->result.no_state_error = "archives do not hold it";
+    outcome->result.no_state_error = "archives do not store it";
   outcome->starts = read_starts(file);
   if (outcome->starts.empty()) outcome->starts = drawn_starts(system);
   outcome->status = stored.status;

@@ -72,7 +72,7 @@ std::string section_text(const System& system, const SectionResult& result, cons
   std::string text = doubts_of(system, result).folded_text() + heading(system);
   text +=
       fmt::format("{} of {}{}\n", counted(result.points, "point"), counted(result.orbits, "orbit"),
-                  result.complete ? "" : "  (interrupted: those that were finished)");
+                  result.complete ? "" : "  (interrupted: only the finished ones)");
   if (!lines.empty()) {
     text += "\n" + lines.table();
     if (result.orbits > lines.size())

@@ -121,19 +121,17 @@ std::vector<std::string> notes_of(const SplittingResult& result) {
   const char* const variable = variable_of(result);
   if (result.plan.population < Extrapolated::least_population)
     lines.push_back(
-        fmt::format("populations of {} trajectories: errors and intervals are valid from {} on",
+        fmt::format("populations of {} trajectories: errors and intervals need at least {}",
                     result.plan.population, Extrapolated::least_population));
   const std::size_t repetitions = result.runs.back().size();
   const Mean cost = cost_of_kicks(result, result.at.size() - 1);
   if (is_certain(cost, repetitions))
-    lines.push_back(fmt::format(
-        "kicked copies do not stay as long as others: by {} = {:.6g} p is off by {}({}) % "
-        "for that, and by as much "
-        "again for what is not seen. The intervals hold it; smaller kicks (--kick {:.3g}) or "
-        "independent trajectories have "
-        "less of it",
-        variable, result.at.back(), in_percent(cost.value), in_percent(cost.error, 1),
-        result.plan.kick / 16));
+    lines.push_back(
+        fmt::format("kicked copies leave earlier than others: at {} = {:.6g} this changes p by "
+                    "{}({}) %, and by as much again for later losses. The intervals include both; "
+                    "smaller kicks (--kick {:.3g}) or independent trajectories have smaller errors",
+                    variable, result.at.back(), in_percent(cost.value), in_percent(cost.error, 1),
+                    result.plan.kick / 16));
   return lines;
 }
 

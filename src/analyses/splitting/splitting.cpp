@@ -31,19 +31,20 @@ void check(const System& system, const SplittingPlan& plan) {
     refuse("splitting", "splitting follows one free particle",
            "a system without forces, of one particle, flown by events");
   if (system.run.collisions > 0)
-    refuse("run.collisions", "splitting knows no cap on hits",
+    refuse("run.collisions", "splitting allows no cap on hits",
            "levels in hits: hits:0,1,2 or hits:lin:0:50:51");
   const std::vector<double>& levels = plan.levels;
   if (levels.empty()) refuse("splitting", "there are no levels", "at least one");
   const bool by_time = plan.by == SplittingPlan::Level::time;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     if (!(levels[i] >= 0.0 && levels[i] < 0x1p53) || (i > 0 && !(levels[i] > levels[i - 1])))
-      refuse("splitting", "the levels do not increase", "levels from 0 on, in increasing order");
+      refuse("splitting", "the levels do not increase",
+             "levels of at least 0, in increasing order");
     if (!by_time && levels[i] != std::floor(levels[i]))
       refuse("splitting", "a number of hits is not whole", "whole numbers of hits");
   }
   if (by_time && plan.deviations)
-    refuse("splitting", "deviations go along from hit to hit", "levels in hits");
+    refuse("splitting", "deviations are carried from hit to hit", "levels in hits");
   if (by_time && (system.run.times.empty() || !(levels.back() < system.run.times.back())))
     refuse("splitting", "the last level is not below the last report time",
            "levels below --t-max and --times");

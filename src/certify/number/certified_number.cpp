@@ -70,7 +70,7 @@ void check_digits(std::uint64_t digits, const Table& table, const Place& place) 
   const auto refuse = [&](const std::string& problem, const std::string& expected) {
     throw InputError(place, problem, expected);
   };
-  if (digits < 1) refuse("no digits are asked for", "at least 1");
+  if (digits < 1) refuse("no digits are requested", "at least 1");
   if (digits <= at_most) return;
   std::string problem = std::to_string(digits) + " digits are more than certified orbits have";
   if (by_memory < most_digits) {

@@ -92,7 +92,7 @@ EnsembleJob<Result> job_to_go_on(const Options& options, Sharing sharing) {
   }
   job.stored = read_ensemble<Result>(job.output);
   if (!options.output.empty() && options.output != job.output)
-    throw InputError(place_of("--output"), "an ensemble goes on in the same archive",
+    throw InputError(place_of("--output"), "an ensemble continues in the same archive",
                      "no -o beside --resume");
   if (!job.stored->result.complete) refuse_other_version(*job.stored);
   job.loaded = loaded_of(*job.stored, options);
@@ -142,7 +142,7 @@ void refuse_parts_of_others(const Options& options) {
   const char* const only = "a plain ensemble, without --splitting";
   if (!options.resume.empty())
     throw InputError(place_of("--resume"), "this cannot be continued", only);
-  if (!options.shard.empty()) throw InputError(place_of("--shard"), "this cannot be parted", only);
+  if (!options.shard.empty()) throw InputError(place_of("--shard"), "this cannot be divided", only);
 }
 
 CheckpointInterval checkpoint_interval(const std::string& text) {

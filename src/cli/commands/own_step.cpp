@@ -27,8 +27,8 @@ bool OwnStep::halve(LoadedSystem& loaded, const EnergyError& error) {
   error_ = error.largest;
   files::halve_step(loaded);
   say_(
-      fmt::format("the energy changed by {:.2g} of the largest kinetic energy with the step that "
-                  "was chosen: again with {}",
+      fmt::format("the energy changed by {:.2g} of the largest kinetic energy with the chosen "
+                  "step: starting again with {}",
                   error.largest, plan.step));
   return true;
 }
@@ -41,7 +41,7 @@ files::Json OwnStep::with_halvings(files::Json report) const {
 std::string OwnStep::text() const {
   if (halvings_ == 0) return {};
   return fmt::format(
-      "the step that was chosen was halved {}: with longer ones the energy changed by more\n",
+      "the chosen step was halved {}: with longer steps the energy changed by more\n",
       halvings_ == 1 ? "once" : fmt::format("{} times", halvings_));
 }
 

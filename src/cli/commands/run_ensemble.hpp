@@ -88,9 +88,8 @@ int report(const Options& options, const EnsembleJob<Result>& job, const Result&
 template <class Result>
 void say_how_to_go_on(const Options& options, const EnsembleJob<Result>& job, std::uint64_t kept) {
   if (named_archive(options, job.output).empty() || kept == 0) return;
-  warn(fmt::format("{} {} kept; this goes on with {}: carom {} --resume {}",
-                   counted(kept, "trajectory"), kept == 1 ? "is" : "are", kept == 1 ? "it" : "them",
-                   options.command, job.output));
+  warn(fmt::format("{} {} kept; to continue: carom {} --resume {}", counted(kept, "trajectory"),
+                   kept == 1 ? "is" : "are", options.command, job.output));
 }
 
 // Reports a result that was just computed. How to go on is said at the end, where it is seen; it is

@@ -47,7 +47,7 @@ void fly_share(const Options& options, EnsembleJob<Result>& job, Ranks& ranks,
   } catch (...) {
     // Other ranks may have kept more.
     if (!job.output.empty() && !files::parts_of_ranks(job.output).empty())
-      warn(fmt::format("what the ranks have kept goes on with: carom {} --resume {}",
+      warn(fmt::format("the work of the ranks is kept; to continue: carom {} --resume {}",
                        options.command, job.output));
     throw;
   }

@@ -85,8 +85,8 @@ void Sweep::prepare() {
 void Sweep::go_on(const std::string& file) {
   file_ = file;
   if (!options_.output.empty() && options_.output != file_)
-    throw InputError(Place{"command line", 0, 0, "--output"}, "a sweep goes on in the same archive",
-                     "no -o beside --resume");
+    throw InputError(Place{"command line", 0, 0, "--output"},
+                     "a sweep continues in the same archive", "no -o beside --resume");
   const bool in_parts = files::has_sweep(file_);
   files::StoredSweep stored = files::read_sweep(file_);
   result_.plan = std::move(stored.plan);
@@ -100,7 +100,7 @@ void Sweep::go_on(const std::string& file) {
   if (asks_for_a_system(options_)) {
     if (options_.sweep.empty() || options_.system.empty())
       throw InputError(Place{"command line", 0, 0, "--resume"},
-                       "a sweep that goes on is not changed",
+                       "a continued sweep cannot be changed",
                        "SYSTEM and all options as before, or none of them");
     refuse_another(result_.plan, plan_of_sweep(options_), file_);
   }
@@ -186,7 +186,7 @@ void Sweep::say_what_is_kept() {
   for (std::size_t i = 0; i < result_.plan.systems.size() && !any; ++i) any = has_begun(i);
   if (!any) return files::remove_sweep(file_);
   if (!options_.hidden_archive)
-    warn(fmt::format("what was computed is kept; this goes on with it: carom {} --resume {}",
+    warn(fmt::format("finished values are kept; to continue: carom {} --resume {}",
                      options_.command, file_));
 }
 
@@ -199,7 +199,7 @@ int Sweep::finish(int status) {
   end_sweep(options_, result_, file_, before_);
   lock_.reset();
   if (status == stopped && !result_.archive.empty())
-    warn(fmt::format("this goes on with it: carom {} --resume {}", options_.command, file_));
+    warn(fmt::format("to continue: carom {} --resume {}", options_.command, file_));
   return status;
 }
 
@@ -236,7 +236,7 @@ bool is_sweep(const Options& options) {
   const std::string file = archive_named(options.resume);
   if (files::has_sweep(file) || files::is_sweep_archive(file)) return true;
   if (!is_plain_ensemble(options) && options.command != "run" && options.command != "escape")
-    throw InputError(Place{file, 0, 0, ""}, "there is no sweep to go on with",
+    throw InputError(Place{file, 0, 0, ""}, "there is no sweep to continue",
                      fmt::format("an archive of carom {} --sweep", options.command));
   return false;
 }

@@ -75,7 +75,7 @@ void refuse_given_twice(const files::SweptKey& swept, const Options& options) {
       {"times", &o.times},         {"trust-tolerance", &o.trust_tolerance},
       {"points", &options.points}, {"orbits", &options.orbits}};
   const auto refuse = [&](const std::string& other) {
-    throw InputError(place_of(swept.key), fmt::format("{} sets it, too", other), "one of the two");
+    throw InputError(place_of(swept.key), fmt::format("{} also sets it", other), "one of the two");
   };
   for (const auto& [path, text] : o.set)
     if (path == swept.key) refuse("--set");

@@ -360,11 +360,12 @@ std::string sweep_text(const SweepResult& result) {
   };
   if (any("fit.local_slope", true))
     text += "  local: the slope in a window that does not show a law by itself\n";
-  if (any("fit.decided", false)) text += "  ?: the data do not tell this law from the next\n";
+  if (any("fit.decided", false))
+    text += "  ?: the data cannot distinguish this law from the next\n";
   if (const std::string why = reasons(result); !why.empty()) text += "\n" + why;
   text += fmt::format("\ncomputed in {:.3g} s\n", sum_of(result, "seconds"));
   if (!result.archive.empty()) text += fmt::format("archive: {}\n", result.archive);
-  text += grounds_text("each value as by itself", "what lies between them");
+  text += grounds_text("each value as a single run", "values between them");
   return text;
 }
 

@@ -78,7 +78,7 @@ std::string table_text(const System& system, const TableMeasure& measured,
   if (table.curve_distance > 0.0)
     text.insert(
         text.size() - 1,
-        fmt::format("  curve        {} pieces, off the formula by at most {:.2g} and rounding\n",
+        fmt::format("  curve        {} pieces, within {:.2g} of the formula plus rounding\n",
                     table.walls.size(), table.curve_distance));
   std::vector<Column> columns{
       {"wall", {}, true}, {"kind", {}, true}, {"length", {}}, {"from", {}}, {"to", {}}};
@@ -100,13 +100,13 @@ std::string table_text(const System& system, const TableMeasure& measured,
     text += fmt::format("  hole '{}' in '{}': arc length {:.9g} to {:.9g}", hole.name,
                         table.walls[static_cast<std::size_t>(hole.wall)].name, from, to);
     if (hole.transmission < 1.0)
-      text += fmt::format(", lets pass a share {:.6g}", hole.transmission);
+      text += fmt::format(", lets a fraction {:.6g} pass", hole.transmission);
     text += "\n";
   }
   for (const Wall& wall : table.walls)
     if (wall.specularity < 1.0)
       text +=
-          fmt::format("  wall '{}' mirrors a share {:.6g} of the hits; the others are diffuse\n",
+          fmt::format("  wall '{}' mirrors a fraction {:.6g} of the hits; the others are diffuse\n",
                       wall.name, wall.specularity);
   for (const Wall& wall : table.walls)
     if (wall.roughness > 0.0)

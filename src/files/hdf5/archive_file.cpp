@@ -105,7 +105,7 @@ void refuse_existing(const std::string& file, bool force) {
   }
   throw InputError(
       Place{file, 0, 0, ""}, "a run that has not ended left a checkpoint of this name",
-      fmt::format("{} --resume {} to go on with it, another name, or --force", command, file));
+      fmt::format("{} --resume {} to continue it, another name, or --force", command, file));
 }
 
 ArchiveFile::ArchiveFile(Handle file, std::string path, std::string name)

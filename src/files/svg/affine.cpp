@@ -74,7 +74,7 @@ void check_size(const Affine& m, const Place& place) {
       throw InputError(place, "the transforms are too long to be multiplied out",
                        "fewer of them, or numbers with fewer digits");
   if (m.determinant() == 0)
-    throw InputError(place, "the transform makes everything flat", "one that can be undone");
+    throw InputError(place, "the transform makes everything flat", "an invertible transform");
 }
 
 Affine transform_of(const XmlAttribute& attribute, const Locator& locator) {

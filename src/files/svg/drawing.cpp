@@ -208,7 +208,7 @@ class Reader {
       id = decoded(*written, locator_);
       if (base::printable(id) != id)
         throw InputError(locator_.at(written->offset),
-                         "the id '" + base::printable(id) + "' has characters that cannot be seen",
+                         "the id '" + base::printable(id) + "' has invisible characters",
                          "an id without control characters");
     }
     std::size_t count = 0, number = 0;

@@ -33,13 +33,13 @@ Ends ends_of(const std::vector<Stroke>& strokes) {
       const std::size_t count = ends[p].size();
       if (count == 1)
         throw InputError(strokes[k].place,
-                         "an open path, which bounds nothing: nothing goes on from " + shown(p),
-                         "a closed one, with Z at its end, or another path that begins there");
+                         "an open path, which bounds nothing: no path continues from " + shown(p),
+                         "a closed path, with Z at its end, or another path that begins there");
       if (count > 2)
-        throw InputError(strokes[k].place,
-                         std::to_string(count) + " paths end at " + shown(p) +
-                             ", and it is open which of them are one loop",
-                         "two ends at each point");
+        throw InputError(
+            strokes[k].place,
+            std::to_string(count) + " paths end at " + shown(p) + ", so the loops are ambiguous",
+            "two ends at each point");
     }
   }
   return ends;

@@ -90,7 +90,7 @@ Rational Scanner::number(const char* what) {
     ++end;
     for (; digit(at(end)); ++behind) digits += text_[end++];
   }
-  if (digits.empty()) fail("here should be " + std::string(what), "a number");
+  if (digits.empty()) fail(std::string(what) + " is missing", "a number");
   long exponent = 0;
   const char e = at(end), sign = at(end + 1);
   if ((e == 'e' || e == 'E') &&
@@ -120,7 +120,7 @@ bool Scanner::flag() {
   skip_separator();
   if (take('0')) return false;
   if (take('1')) return true;
-  fail("here should be a flag of an arc", "0 or 1");
+  fail("a flag of an arc is missing", "0 or 1");
 }
 
 std::string_view Scanner::word() {

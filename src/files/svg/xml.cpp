@@ -150,7 +150,7 @@ void XmlReader::skip_doctype() {
 std::string_view XmlReader::name(const char* of) {
   const std::size_t begin = at_;
   while (at_ < text_.size() && of_name(text_[at_])) ++at_;
-  if (at_ == begin) fail(at_, "here should be the name of " + std::string(of), "a letter");
+  if (at_ == begin) fail(at_, "the name of " + std::string(of) + " is missing", "a letter");
   return text_.substr(begin, at_ - begin);
 }
 
@@ -184,17 +184,17 @@ void XmlReader::nest(const XmlTag& tag) {
   const std::string shown =
       "<" + std::string(tag.closes && !tag.opens ? "/" : "") + std::string(tag.name) + ">";
   if (tag.opens && open_.empty() && rooted_)
-    fail(tag.offset, shown + " stands behind the drawing's end", "nothing behind it");
+    fail(tag.offset, shown + " follows the end of the drawing", "nothing after it");
   rooted_ = true;
   if (tag.opens && !tag.closes) {
     if (open_.size() == deepest)
-      fail(tag.offset, "too many elements in each other",
+      fail(tag.offset, "elements are nested too deeply",
            "at most " + std::to_string(deepest) + " levels");
     open_.push_back(tag.name);
   } else if (!tag.opens) {
     if (open_.empty() || open_.back() != tag.name)
       fail(tag.offset, shown + " closes what is not open",
-           open_.empty() ? "nothing behind the end" : "</" + std::string(open_.back()) + ">");
+           open_.empty() ? "nothing after the end" : "</" + std::string(open_.back()) + ">");
     open_.pop_back();
   }
 }

@@ -100,7 +100,7 @@ Rational scale_of(const Value& written) {
   const ExactNumber number = as_number(written);
   const auto ratio = number.to_rational();
   if (!ratio || !(number.to_double() > 0.0))
-    throw InputError(written.place, "a drawing cannot be magnified by " + written.text,
+    throw InputError(written.place, "a drawing cannot be scaled by " + written.text,
                      "a positive number without roots");
   return Rational(ratio->numerator + "/" + ratio->denominator);
 }

@@ -7,7 +7,7 @@ namespace carom {
 
 const std::vector<KeyDescription>& key_table() {
   static const std::vector<KeyDescription> keys{
-      {"", "", "title", "string", "\"\"", "what the system is; for readers alone"},
+      {"", "", "title", "string", "\"\"", "description of the system; only for readers"},
 
       {"table", "", "shape", "string", "",
        "rectangle, polygon, triangle, regular, circle, ellipse, annulus, stadium, mushroom, lemon, "
@@ -24,16 +24,16 @@ const std::vector<KeyDescription>& key_table() {
        "regular|circle|stadium|lemon|sinai|lorentz|discs|random-discs|cardioid|limacon|flower|"
        "robnik",
        "radius", "number", "",
-       "of the circle, the caps, the arcs or the discs; of the circumscribed circle for regular; "
-       "of "
-       "the circle that the curve is where it is not deformed"},
+       "radius of the circle, the caps, the arcs or the discs; of the circumscribed circle for "
+       "regular; of the undeformed circle for curves"},
       {"table", "polar", "radius", "formula", "",
-       "the distance of the wall from the origin, of the angle phi: \"1 + 0.5*cos(phi)\""},
-      {"table", "parametric", "x", "formula", "", "the wall's x, of the parameter t: \"2*cos(t)\""},
+       "distance of the wall from the origin, a formula in the angle phi: \"1 + 0.5*cos(phi)\""},
+      {"table", "parametric", "x", "formula", "",
+       "the wall's x, a formula in the parameter t: \"2*cos(t)\""},
       {"table", "parametric", "y", "formula", "", "its y"},
       {"table", "parametric", "from", "number", "0", "where t begins"},
       {"table", "parametric", "to", "number", "\"2*pi\"",
-       "where it ends, and the wall with all its derivatives is as where it begins"},
+       "where t ends; the wall and all its derivatives must be the same as at the start"},
       {"table", "implicit", "equation", "formula", "",
        "a formula of x and y that vanishes on the wall and changes its sign there: \"x^4 + y^4 - "
        "1\""},
@@ -46,10 +46,10 @@ const std::vector<KeyDescription>& key_table() {
       {"table", "ellipse|superellipse|egg", "b", "number", "", "semi-axis along y"},
       {"table", "superellipse", "exponent", "whole number", "", "n, even, from 2 to 20"},
       {"table", "limacon|flower|egg", "epsilon", "number", "",
-       "by how much the curve is deformed, above -1 and below 1"},
+       "size of the deformation, above -1 and below 1"},
       {"table", "flower", "petals", "whole number", "", "number of waves, from 1 to 100"},
       {"table", "robnik", "lambda", "number", "",
-       "by how much the curve is deformed, above -1/2 and below 1/2"},
+       "size of the deformation, above -1/2 and below 1/2"},
       {"table", "annulus", "outer", "number", "",
        "radius of the outer circle, centred at the origin"},
       {"table", "annulus", "inner", "number", "", "radius of the inner circle"},
@@ -88,14 +88,15 @@ const std::vector<KeyDescription>& key_table() {
       {"table.obstacle", "", "shape", "string", "",
        "circle, ellipse, polygon, path, polar, parametric or spline"},
       {"table.obstacle", "circle|ellipse", "center", "point", "", "its centre"},
-      {"table.obstacle", "polar", "center", "point", "[0, 0]", "where its radius begins"},
+      {"table.obstacle", "polar", "center", "point", "[0, 0]", "centre of its polar coordinates"},
       {"table.obstacle", "circle", "radius", "number", "", "its radius"},
       {"table.obstacle", "polar", "radius", "formula", "",
-       "the distance of the wall from center, of the angle phi"},
-      {"table.obstacle", "parametric", "x", "formula", "", "the wall's x, of the parameter t"},
+       "distance of the wall from center, a formula in the angle phi"},
+      {"table.obstacle", "parametric", "x", "formula", "",
+       "the wall's x, a formula in the parameter t"},
       {"table.obstacle", "parametric", "y", "formula", "", "its y"},
       {"table.obstacle", "parametric", "from", "number", "0", "where t begins"},
-      {"table.obstacle", "parametric", "to", "number", "\"2*pi\"", "where it ends"},
+      {"table.obstacle", "parametric", "to", "number", "\"2*pi\"", "where t ends"},
       {"table.obstacle", "ellipse", "a", "number", "", "one semi-axis"},
       {"table.obstacle", "ellipse", "b", "number", "", "the other semi-axis"},
       {"table.obstacle", "ellipse", "angle", "angle", "0", "angle of the semi-axis a against +x"},
@@ -106,7 +107,7 @@ const std::vector<KeyDescription>& key_table() {
       {"table.obstacle", "path", "start", "point", "",
        "where the first piece begins and the last must end"},
       {"table.obstacle", "path", "pieces", "list of tables", "",
-       "as of [[table.loop]], either way round"},
+       "as in [[table.loop]], either way round"},
       {"table.obstacle", "", "name", "string", "",
        "name of its wall; of several walls the start of the names NAME_side_1, NAME_side_2 … for a "
        "polygon, NAME_1, NAME_2 … for others; obstacle_1, obstacle_2 … if not given"},
@@ -117,24 +118,23 @@ const std::vector<KeyDescription>& key_table() {
       {"table.hole", "", "width", "number", "", "arc length of the hole"},
       {"table.hole", "", "name", "string", "", "a name; hole_1, hole_2 … if not given"},
       {"table.hole", "", "transmission", "number", "1",
-       "share of the hits that pass, at random; the others are those of the wall"},
+       "fraction of the hits that pass, at random; the others follow the law of the wall"},
 
       {"table.wall", "", "law", "string", "",
-       "specular; diffuse: by Lambert's law, the sine of the angle to the normal uniform; mixed; "
-       "or rough"},
+       "specular; diffuse: by Lambert's law, with a uniform sine of the angle to the normal; "
+       "mixed; or rough"},
       {"table.wall", "mixed", "specularity", "number", "",
-       "share of the hits that are mirrored; the others are diffuse"},
+       "fraction of the hits that are mirrored; the others are diffuse"},
       {"table.wall", "rough", "angle", "angle", "",
        "the normal is turned by a random angle, uniform from -angle to angle"},
       {"table.wall", "", "wall", "string", "", "name of the wall; all walls if not given"},
 
       {"table.region", "", "wall", "string", "", "a wall of the obstacle that particles pass"},
-      {"table.region", "", "B", "number", "",
-       "magnetic field within; that of the outside if not given"},
+      {"table.region", "", "B", "number", "", "magnetic field inside; that outside if not given"},
       {"table.region", "", "potential", "number", "0",
-       "potential energy within; it is 0 outside, where particles have their speed"},
+       "potential energy inside; it is 0 outside, where particles have their given speed"},
       {"table.region", "", "index", "number", "1",
-       "refractive index within, relative to the outside: the speed is divided by it"},
+       "refractive index inside, relative to the outside: the speed is divided by it"},
       {"table.region", "", "reflection", "string", "none",
        "hits that are mirrored although they could pass: none; or at random as a wave, s or p "
        "(Fresnel)"},
@@ -144,7 +144,7 @@ const std::vector<KeyDescription>& key_table() {
       {"table.loop", "pieces", "pieces", "list of tables", "",
        "outer loops run counter-clockwise, obstacles clockwise"},
       {"table.loop", "circle|ellipse", "center", "point", "",
-       "of a whole circle or ellipse, which is an outer wall"},
+       "centre of a whole circle or ellipse as the outer wall"},
       {"table.loop", "circle", "radius", "number", "", "its radius"},
       {"table.loop", "ellipse", "a", "number", "", "one semi-axis"},
       {"table.loop", "ellipse", "b", "number", "", "the other semi-axis"},
@@ -155,7 +155,7 @@ const std::vector<KeyDescription>& key_table() {
       {"table.loop.pieces", "arc", "arc_to", "point", "", "a circular arc to this point"},
       {"table.loop.pieces", "arc", "arc_via", "point", "", "a point on that arc"},
       {"table.loop.pieces", "bezier", "bezier", "list of points", "",
-       "a Bézier curve: 1 to 4 control points and, last, its end"},
+       "a Bézier curve: 1 to 4 control points, then its end"},
       {"table.loop.pieces", "ellipse", "ellipse_to", "point", "", "an elliptic arc to this point"},
       {"table.loop.pieces", "ellipse", "ellipse_via", "point", "", "a point on that arc"},
       {"table.loop.pieces", "ellipse", "ellipse_ratio", "number", "", "minor over major axis"},
@@ -169,13 +169,13 @@ const std::vector<KeyDescription>& key_table() {
 
       {"field", "", "B", "number", "0", "magnetic field; B > 0 turns a positive charge clockwise"},
       {"field", "", "larmor_radius", "number", "",
-       "radius of the Larmor circles instead of B, which is then > 0; with an energy where forces "
-       "act: of those where they vanish"},
+       "radius of the Larmor circles instead of B, which is then > 0; with forces and an energy: "
+       "the radius where the potential is 0"},
 
       {"particles", "", "count", "whole number", "1", "number of particles"},
       {"particles", "", "speed", "number or list", "1",
-       "speed; if neither it nor energy is given, the length of initial.velocity or of those of "
-       "the starts"},
+       "speed; if neither it nor energy is given, the length of initial.velocity or of the "
+       "velocities of the starts"},
       {"particles", "", "energy", "number or list", "",
        "energy instead of speed: kinetic, and potential where forces act; interacting particles "
        "share the sum"},
@@ -189,7 +189,7 @@ const std::vector<KeyDescription>& key_table() {
       {"initial", "boundary|hole", "hole", "string", "", "the hole to start from, into the table"},
       {"initial", "point", "position", "point", "", "where all trajectories start"},
       {"initial", "point", "velocity", "point", "",
-       "direction of flight, and the speed where [particles] gives none"},
+       "direction of flight, and the speed if [particles] gives none"},
       {"initial", "point|line", "angle", "angle", "", "direction of flight against +x"},
       {"initial", "birkhoff", "s", "number, list or grid", "", "arc length along the wall"},
       {"initial", "birkhoff", "v_parallel", "number, list or grid", "",
@@ -199,18 +199,17 @@ const std::vector<KeyDescription>& key_table() {
       {"initial", "line", "from", "point", "", "one end of the line of starts"},
       {"initial", "line", "to", "point", "", "its other end"},
       {"initial", "list", "starts", "list of lists", "",
-       "one [x, y, vx, vy] a trajectory; the velocity is the speed, too, where [particles] gives "
-       "none"},
+       "one [x, y, vx, vy] for each trajectory; without a speed in [particles] the velocity also "
+       "gives the speed"},
       {"initial", "file", "path", "string", "",
-       "a text file with x y vx vy in each line, relative to the system file: a list kept "
-       "elsewhere"},
+       "a text file with x y vx vy in each line, relative to the system file"},
       {"initial.grid", "", "from", "number", "", "first value of a grid {from, to, count}"},
       {"initial.grid", "", "to", "number", "", "its last value"},
       {"initial.grid", "", "count", "whole number", "", "number of values, at least 2"},
 
       {"injection", "", "hole", "string", "", "the hole that particles enter through"},
       {"injection", "", "times", "list of numbers", "",
-       "when one enters each, in increasing order, at most t_max"},
+       "entry times of single particles, in increasing order, at most t_max"},
       {"injection", "", "rate", "number", "",
        "mean number that enter per unit time, at random until t_max; instead of times"},
       {"injection", "", "speed", "number", "",
@@ -263,29 +262,26 @@ const std::vector<KeyDescription>& key_table() {
       {"integrator", "", "scheme", "string", "\"blanes-moan-srkn11b\"",
        "name of a scheme, arkode or cvode"},
       {"integrator", "", "step", "number", "",
-       "time of a step; where forces act and none is given the program chooses one; the longest "
-       "step of arkode and cvode"},
+       "time of a step; if forces act and none is given, the program chooses one; for arkode and "
+       "cvode the longest step"},
       {"integrator", "", "step_chosen", "boolean", "",
-       "true: the program chose the step, as it writes into resolved systems"},
+       "true: the program chose the step; written into resolved systems"},
       {"integrator", "", "tolerance", "number", "",
-       "of arkode and cvode, 1e-12 if not given: error of a step, relative to the state"},
+       "for arkode and cvode: error of a step, relative to the state; 1e-12 if not given"},
       {"integrator", "", "unresolved", "string", "",
-       "what becomes of a step that does not resolve the forces it sweeps: stop ends the "
-       "trajectory as unresolved, count counts "
-       "the step and goes on, halve takes it in parts, halved until they do; halve where the "
-       "program chooses the step, else stop"},
+       "a step that does not resolve the forces: stop ends the trajectory as unresolved, count "
+       "counts the step and continues, halve divides it into parts that resolve them; default: "
+       "halve if the program chooses the step, else stop"},
       {"integrator", "", "energy_tolerance", "number", "1e-3",
        "largest change of the energy, relative to the largest kinetic energy, that a result may "
-       "have; beyond it the report says so "
-       "first and the exit status is 3"},
+       "have; beyond it the report begins with a warning and the exit status is 3"},
 
       {"run", "", "t_max", "number", "1000", "when a trajectory stops"},
       {"run", "", "collisions", "whole number", "",
-       "most hits a trajectory may make; no limit if not given"},
+       "largest number of hits of a trajectory; no limit if not given"},
       {"run", "", "trajectories", "whole number", "100000",
-       "size of an ensemble; where starts are listed (point, list, file, birkhoff) and nothing "
-       "else is drawn, their number "
-       "if not given"},
+       "size of an ensemble; default for listed starts (point, list, file, birkhoff) if nothing is "
+       "drawn at random: their number"},
       {"run", "", "seed", "whole number", "1", "of the random numbers"},
       {"run", "", "trust_tolerance", "number", "1e-3",
        "largest error of a trusted collision of `carom run`, relative to the table's size"},
@@ -296,25 +292,24 @@ const std::vector<KeyDescription>& key_table() {
        "given"},
       {"run", "", "window", "list of two numbers", "",
        "times between which a decay is fitted, or report times between which the diffusion "
-       "coefficient is taken; chosen if not given"},
+       "coefficient is measured; chosen if not given"},
       {"run", "", "free_paths", "true or false", "",
-       "carom diffusion: are the lengths of flights counted? false if not given"},
+       "carom diffusion: true counts the lengths of flights; false if not given"},
       {"run", "", "spectrum", "true or false", "",
-       "carom lyapunov: are all exponents of all particles together computed? false if not given"},
+       "carom lyapunov: true computes all exponents of all particles together; false if not given"},
       {"run.times", "", "from", "number", "", "the first time"},
       {"run.times", "", "to", "number", "", "the last time, at most t_max"},
       {"run.times", "", "count", "whole number", "31", "number of times, from 2 to 100000"},
       {"run.times", "", "spacing", "string", "\"log\"", "log or linear"},
 
       {"section", "", "on", "string", "\"boundary\"",
-       "where `carom section` looks: boundary, wall:NAME, line:x0,y0:x1,y1, segment:x0,y0:x1,y1, "
-       "circle:x,y,r, "
-       "x=c, y=c, vx=c or vy=c"},
+       "surface of `carom section`: boundary, wall:NAME, line:x0,y0:x1,y1, segment:x0,y0:x1,y1, "
+       "circle:x,y,r, x=c, y=c, vx=c or vy=c"},
       {"section", "", "direction", "string", "\"both\"",
        "crossings that count: both, positive (to the left of a line, out of a circle, growing "
        "coordinate) or "
        "negative"},
-      {"section", "", "points", "whole number", "1000", "most points of an orbit"},
+      {"section", "", "points", "whole number", "1000", "largest number of points of an orbit"},
       {"section", "", "orbits", "whole number", "",
        "number of orbits; if not given, one for each listed start, else trajectories, but at most "
        "50"},

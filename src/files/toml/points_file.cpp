@@ -32,7 +32,7 @@ void take_points_from_file(Value& table, const std::string& section_name) {
       throw InputError(point.place,
                        numbers == 3 ? "this disc has no radius, those before have one"
                                     : "this disc has a radius, those before have none",
-                       "as many numbers in each line");
+                       "the same number of values in each line");
     if (numbers < 3) continue;
     radii.items.push_back(std::move(point.items.back()));
     point.items.pop_back();

@@ -53,7 +53,7 @@ void combine(const Axis& s, const Axis& v, const Place& place, InitialCondition&
   if (s.list && v.list) {
     if (s.values.size() != v.values.size()) {
       throw InputError(place, "the lists s and v_parallel differ in length",
-                       "as many values in one as in the other, or a grid");
+                       "lists of equal length, or a grid");
     }
     initial.s = s.values;
     initial.v_parallel = v.values;

@@ -92,8 +92,7 @@ const std::string& as_text(const Value& value) {
 
 const std::string& as_name(const Value& value) {
   if (base::printable(as_text(value)) != value.text)
-    throw InputError(value.place,
-                     "the name '" + value.text + "' has characters that cannot be seen",
+    throw InputError(value.place, "the name '" + value.text + "' has invisible characters",
                      "a name without control characters");
   return value.text;
 }

@@ -60,8 +60,8 @@ using FreePathDistribution = Distribution;
 template <>
 struct Fields<FreePathBin> {
   static constexpr auto list = distribution_fields<FreePathBin>(
-      "length", "1/length", "Flights of from <= length < to", "Share of all flights, per length",
-      "Share of the flights that are at least `from` long");
+      "length", "1/length", "Flights of from <= length < to", "Fraction of all flights, per length",
+      "Fraction of the flights of `from` or longer");
 };
 
 /// Where free corridors exist, both tails' amplitudes tend to flight_tail.

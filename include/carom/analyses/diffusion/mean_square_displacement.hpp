@@ -71,7 +71,7 @@ struct Fields<MomentPoint> {
   static constexpr const char* error = "Its standard error";
   static constexpr std::tuple list{
       field("t", "time", "Time", &P::t),
-      field("count", "1", "Particles there at t", &P::count),
+      field("count", "1", "Particles still inside at t", &P::count),
       field_as<double>(
           "value", "length^2", "Mean square displacement",
           [](auto& p) -> auto& { return p.square.value; }),

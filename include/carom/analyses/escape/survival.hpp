@@ -88,7 +88,7 @@ template <>
 struct Fields<SurvivalPoint> {
   using P = SurvivalPoint;
   static constexpr std::tuple list{field("t", "time", "Time", &P::t),
-                                   field("p", "1", "Share still there after t", &P::p),
+                                   field("p", "1", "Fraction still inside after t", &P::p),
                                    field("low", "1", "95 % interval, low end", &P::low),
                                    field("high", "1", "95 % interval, high end", &P::high)};
 };
@@ -96,7 +96,7 @@ template <>
 struct Fields<SurvivalHitsPoint> {
   using P = SurvivalHitsPoint;
   static constexpr std::tuple list{field("n", "1", "Reflections", &P::n),
-                                   field("p", "1", "Share still there after n hits", &P::p),
+                                   field("p", "1", "Fraction still inside after n hits", &P::p),
                                    field("low", "1", "95 % interval, low end", &P::low),
                                    field("high", "1", "95 % interval, high end", &P::high)};
 };

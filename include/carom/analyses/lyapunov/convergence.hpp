@@ -22,10 +22,11 @@ struct Fields<ExponentAt> {
   using E = ExponentAt;
   static constexpr std::tuple list{
       field("t", "time", "Time since the start", &E::t),
-      field("lambda", "1/time",
-            "Growth of ln|deviation| until then over the time, mean over orbits", &E::lambda),
+      field("lambda", "1/time", "Growth of ln|deviation| until t over t, mean over orbits",
+            &E::lambda),
       field("lambda_stderr", "1/time",
-            "Its standard error, by orbits; NaN: fewer than 16, or quasi-random starts",
+            "Its standard error, from the scatter of orbits; NaN: fewer than 16, or quasi-random "
+            "starts",
             &E::error)};
 };
 

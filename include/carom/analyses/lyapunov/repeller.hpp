@@ -37,14 +37,14 @@ struct Fields<RepellerExponent> {
   static constexpr std::tuple list{
       field("kick", "1", "The largest kick of copies, of v_parallel / v", &R::kick),
       field_as<double>(
-          "kick_cost", "1", "Share of those left that kicks add",
+          "kick_cost", "1", "Relative change of survival caused by the kicks",
           [](auto& r) -> auto& { return r.kick_cost.value; }),
       field_as<double>(
           "kick_cost_stderr", "1", "Its standard error",
           [](auto& r) -> auto& { return r.kick_cost.error; }),
       field("time_from", "time", "Mean time at the start of the window", &R::time_from),
       field("time_to", "time", "Mean time at its end", &R::time),
-      field("trapped", "1", "Share of the starts that can never leave", &R::trapped),
+      field("trapped", "1", "Fraction of the starts that can never leave", &R::trapped),
       field("population", "1", "Trajectories of each population", &R::population),
       field("hits_from", "1", "Hits at the start of the window", &R::hits_from),
       field("hits_to", "1", "Hits at its end", &R::hits),
