@@ -15,9 +15,9 @@ from .tables import table
 
 @picture
 def sweep(result, ax=None, y=None, **style):
-    """A column of a sweep's table against its key, with error bars; of a plane a map. y: the column
+    """A column of a sweep's table against its key, with error bars; a map for a plane. y: the column
     (default: the first with errors that every value has). Rates and exponents have a marker for each
-    law, and no line joins different laws; a hollow one is undecided."""
+    law, and no line joins different laws; a hollow marker is undecided."""
     table = result.table
     keys = [one["key"] for one in result._json["keys"]]
     numbers = [name for name in table.dtype.names if table[name].dtype.kind == "f"]
@@ -102,8 +102,8 @@ def _geometric(values):
 
 @picture
 def lyapunov(result, ax=None, **style):
-    """How the finite-time exponents of the orbits are distributed, and their mean. Of fewer than ten
-    orbits the exponent of each. style: that of the distribution, as color and label."""
+    """The distribution of the finite-time exponents of the orbits, and their mean. For fewer than ten
+    orbits the exponent of each. style: keywords for the distribution, such as color and label."""
     ax = new_axes(ax)
     mean = {"color": style_of(style).get("color", COLOURS[1]), "alpha": style_of(style).get("alpha")}
     labelled = style = style_of(style, color=COLOURS[0], linewidth=1)
@@ -134,8 +134,8 @@ def lyapunov(result, ax=None, **style):
 
 @picture
 def convergence(result, ax=None, **style):
-    """The exponent since the start at growing times, of a repeller that at each kick of its copies, and the one that
-    the run gives. style: that of the line, as color and label."""
+    """The exponent since the start at growing times (for a repeller: at each kick of its copies), and the final
+    value. style: keywords for the line, such as color and label."""
     ax = new_axes(ax)
     own = style_of(style)
     style = style_of(style, marker="o", markersize=4, color=COLOURS[0])
@@ -173,7 +173,7 @@ def _exponent_line(ax, result, line, span, style):
 
 @picture
 def spectrum(result, ax=None, **style):
-    """All exponents, the largest first, with their errors; style: that of the points, as color and label."""
+    """All exponents, the largest first, with their errors; style: keywords for the points, such as color and label."""
     ax = new_axes(ax)
     values = result.spectrum
     if values is not None:
@@ -204,9 +204,9 @@ def _coarser(bins):
 
 @picture
 def orbits(result, ax=None, most=12, **style):
-    """Periodic orbits, the first `most` of them, each in a table of its own with its word, period and the
-    larger multiplier; with `ax` all in one. Of families one member, dashed. Of a lattice all cells that
-    an orbit crosses. style: that of the lines, as color."""
+    """Periodic orbits, the first `most` of them, each in its own table with its word, period and the
+    larger multiplier; with `ax` all in one. Of a family one member is drawn, dashed; of a lattice all
+    cells that an orbit crosses. style: keywords for the lines, such as color."""
     shown = result.json["orbits"][:most]
     style = style_of(style, linewidth=0.9)
     if ax is not None:
@@ -266,8 +266,8 @@ def _orbits(result, ax, numbers, style):
 @picture
 def comparison(result, ax=None, of="error_state", **style):
     """Error against work: a line for each scheme, in colour by order; dashed: adaptive. Other
-    errors by `of`. A dotted line is the wanted error, the grey band what the reference cannot tell.
-    style: that of the lines; a label stands before the names of the schemes."""
+    errors by `of`. A dotted line is the wanted error, the grey band the uncertainty of the reference.
+    style: keywords for the lines; a label precedes the names of the schemes."""
     style = style_of(style, markersize=3.5, linewidth=1)
     label = style.pop("label", None)
     ax = new_axes(ax, (6.6, 4.6))
@@ -299,8 +299,8 @@ def comparison(result, ax=None, of="error_state", **style):
 
 @picture
 def equilibria(found, ax=None, most=4, **style):
-    """The places of the particles at the lowest equilibria, over the level lines of the potential, each in
-    a picture of its own; with `ax` the lowest one. style: that of the dots, as color and label."""
+    """The positions of the particles at the lowest equilibria, over the level lines of the potential, each in
+    its own picture; with `ax` the lowest one. style: keywords for the dots, such as color and label."""
     style = style_of(style, color=COLOURS[0], marker="o", markersize=6, linestyle="", markeredgecolor="white")
     shown = found.equilibria[: most if ax is None else 1]
     if ax is not None:

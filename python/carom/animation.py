@@ -19,10 +19,10 @@ def animate(
     """A film of the particles of a `carom.Run` or of a system, which is run: a
     matplotlib.animation.FuncAnimation.
 
-    output: a name ending in .gif or .mp4 that it is saved as. t_max (time): where it ends; of a
-    run its end or its hundredth hit, of a system that of twenty mean flights. frames: their
-    number; fps: frames a second; trail: frames that a particle's way stays visible. progress: called
-    with the number of frames that are saved. Keywords: keys of a system file.
+    output: the file, a name ending in .gif or .mp4. t_max (time): end of the film; default: the end
+    of a run or its hundredth hit, twenty mean flights of a system. frames: their number; fps: frames
+    per second; trail: frames for which a particle's path stays visible. progress: called with the
+    number of saved frames. Keywords: keys of a system file.
     """
     if output is not None:
         output = os.fspath(output)

@@ -16,8 +16,8 @@ def hits(system: Systems, *, block: int = 100_000, **keywords: Any) -> Iterator[
     """Reflections, an array for each `block` of them, while C++ computes the next ones: for runs too long to keep.
 
     Columns: trajectory, and those of `carom.Run.hits` (particle, wall, s, v_parallel, t, x, y, vx, vy …), with the
-    same bits. Keywords as of `carom.run`: hits of one trajectory, in order of time. With trajectories=1000: as of
-    `carom.escape`, those of all, one trajectory after the other.
+    same bits. Keywords: those of `carom.run`, for the hits of one trajectory, in order of time. With trajectories=1000:
+    those of `carom.escape`, and the hits of all, one trajectory after the other.
 
         for rows in carom.hits(carom.stadium(half_length=1, radius=1), collisions=10**8):
             histogram += numpy.bincount(rows["wall"], minlength=len(histogram))
@@ -34,8 +34,8 @@ def trajectories(system: Systems, *, block: int = 10_000, **keywords: Any) -> It
 
     Columns: those of `per_trajectory` of `carom.escape` (index, x, y, vx, vy of the start, fate, hole, time, hits …),
     with the same bits, and end_x, end_y (length, in the plane), end_vx, end_vy (length/time) and end_wall: the
-    state at t_max, or after the last event of what ended before, and the last wall (−1: none). Keywords as of
-    `carom.escape`.
+    state at t_max, or after the last event of what ended before, and the last wall (−1: none). Keywords:
+    those of `carom.escape`.
 
         for rows in carom.trajectories("stadium", trajectories=10**8, t_max=100):
             counts += numpy.bincount(rows["hole"] + 1, minlength=len(counts))

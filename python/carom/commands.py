@@ -85,18 +85,18 @@ def escape(
 
     system: a System, the name of a built-in one, or a system file. Keywords: keys of a system file
     (t_max: time, trajectories, seed, times, B, larmor_radius: length, speed: length/time, initial,
-    …) and threads, isa, engine. progress: True, False, a function of (share, number done), or
-    None: on a terminal and in notebooks. per_trajectory: keeps the start and the end of each.
-    window=(from, to): times (time) between which the decay is fitted.
+    …) and threads, isa, engine. progress: True, False, a function of (fraction, number done), or
+    None: shown on a terminal and in notebooks. per_trajectory: keeps the start and the end of each
+    trajectory. window=(from, to): times (time) between which the decay is fitted.
 
-    sweep={"field.B": values}: a `carom.Sweep`, a result for each value of a key; values are numbers
-    or "lin:0:4:20", "log:1:1000:4"; two keys make a plane. All have the same seed, unless
-    that is swept. So with all commands that move particles, relax, orbits and compare.
+    sweep={"field.B": values}: a `carom.Sweep`, with a result for each value of a key; values are
+    numbers or "lin:0:4:20", "log:1:1000:4"; two keys make a plane. All results have the same seed,
+    unless the seed is swept. All commands that move particles, relax, orbits and compare have it.
 
     splitting="10,20,40" (times) or "hits:lin:0:30:31", with population, repetitions,
     kick and lookback: a `carom.Splitting`, for rare events.
 
-    Ctrl-C raises KeyboardInterrupt, whose `result` holds what was done.
+    Ctrl-C raises KeyboardInterrupt, whose `result` holds what was computed so far.
     """
     keywords |= {"splitting": splitting, "per_trajectory": per_trajectory}
     if splitting is None:
@@ -112,8 +112,8 @@ def escape(
 def diffusion(system: Systems, *, progress: Progress = None, **keywords: Any) -> results.Diffusion:
     """Mean square displacement and diffusion coefficient of an ensemble: a `carom.Diffusion`.
 
-    Keywords as of `carom.escape`, and window=(from, to), the report times (time) from which D and
-    the exponent are taken; free_paths=True counts the lengths of flights.
+    Keywords: those of `carom.escape`, and window=(from, to), the report times (time) between which
+    D and the exponent are fitted; free_paths=True counts the lengths of flights.
     """
     return _compute(results.Diffusion, _carom.ensemble, system, "diffusion", keywords, progress)
 
@@ -121,11 +121,11 @@ def diffusion(system: Systems, *, progress: Progress = None, **keywords: Any) ->
 def lyapunov(
     system: Systems, *, per_trajectory: bool = False, progress: Progress = None, **keywords: Any
 ) -> results.Lyapunov:
-    """Lyapunov exponents of an ensemble, and its chaotic share: a `carom.Lyapunov`.
+    """Lyapunov exponents of an ensemble, and its chaotic fraction: a `carom.Lyapunov`.
 
-    Keywords as of `carom.escape`, and window=(from, to), the times (time) between which the growth
-    of deviations is taken; spectrum=True computes all exponents of all particles together, and their
-    entropy. per_trajectory: keeps start, end, exponent and SALI of each.
+    Keywords: those of `carom.escape`, and window=(from, to), the times (time) between which the
+    growth of deviations is measured; spectrum=True computes all exponents of all particles together,
+    and their entropy. per_trajectory: keeps start, end, exponent and SALI of each trajectory.
     """
     keywords["per_trajectory"] = per_trajectory
     return _compute(results.Lyapunov, _carom.ensemble, system, "lyapunov", keywords, progress)
@@ -134,8 +134,8 @@ def lyapunov(
 def returns(system: Systems, *, on: str, progress: Progress = None, **keywords: Any) -> Returns:
     """Return times to a wall, in time and in hits: a `carom.Returns`.
 
-    on: "wall:NAME". Keywords as of `carom.escape`. Excursions count that begin in the first half of
-    t_max, so that each is seen for at least half of it.
+    on: "wall:NAME". Keywords: those of `carom.escape`. Excursions count if they begin in the first
+    half of t_max; each is then followed for at least half of t_max.
     """
     keywords["on"] = on
     return _compute(Returns, _carom.ensemble, system, "returns", keywords, progress)
@@ -151,12 +151,12 @@ def run(
 ) -> Union[results.Run, results.Certified]:
     """One trajectory, followed closely: a `carom.Run`.
 
-    position (length, 2 numbers), velocity (length/time): a start; else `initial` of the system,
-    drawn with `trajectory` (0). collisions, t_max (time): when it ends. sample (time): between
-    stored states. state_error: estimates the error of the state under forces, which costs up to
-    three times the run. on_hit: called some times a second with the hits since the last call, an array as
-    `carom.Run.hits`; `carom.hits` gives them without keeping them. precision="certified", digits=30: a
-    `carom.Certified`, every digit of which is guaranteed.
+    position (length, 2 numbers), velocity (length/time): the start; default: `initial` of the
+    system, drawn as number `trajectory` (0). collisions, t_max (time): the end. sample (time): time
+    between stored states. state_error: estimates the error of the state under forces, which costs up
+    to three times the run. on_hit: called a few times a second with the hits since the last call, an
+    array like `carom.Run.hits`; `carom.hits` gives them without keeping them. precision="certified",
+    digits=30: a `carom.Certified` with guaranteed digits.
     """
     if on_hit is not None and not callable(on_hit):
         raise InputError(f"'on_hit' is {on_hit!r}", ("", 0, 0, "on_hit"), "a function of an array of hits")
@@ -185,9 +185,9 @@ def compare(
 ) -> results.Comparison:
     """Integrators compared on a system, error against work: a `carom.Comparison`.
 
-    schemes: names, "all", or None: a dozen, arkode and cvode. steps (time), tolerances (share):
-    lists, or text as "log:0.001:0.1:7"; None: chosen. error: the wanted one of the state (share,
-    1e-6). t_max (time): of the comparison; None: until small errors have grown 100 times.
+    schemes: names, "all", or None: a dozen, arkode and cvode. steps (time), tolerances (relative):
+    lists, or text such as "log:0.001:0.1:7"; None: chosen. error: the wanted relative error of the
+    state (1e-6). t_max (time): end of the comparison; None: until small errors have grown 100 times.
     """
     keywords |= {"schemes": schemes, "steps": steps, "tolerances": tolerances, "error": error}
     return _compute(results.Comparison, _carom.compare, system, "compare", keywords, progress)
@@ -200,10 +200,10 @@ def schemes() -> numpy.ndarray:
 
 
 def section(system: Systems, *, progress: Progress = None, **keywords: Any) -> results.Section:
-    """Where orbits meet walls, a line, a circle or a velocity: a `carom.Section`.
+    """Points of orbits on walls, a line, a circle or a condition on the velocity: a `carom.Section`.
 
     on: "boundary", "wall:NAME", "line:x0,y0:x1,y1", "x=0" … (lengths); direction: "both",
-    "positive" or "negative"; points: most of each orbit; orbits: number of them.
+    "positive" or "negative"; points: largest number for each orbit; orbits: number of orbits.
     """
     return _compute(results.Section, _carom.section, system, "section", keywords, progress)
 
@@ -218,8 +218,8 @@ def relax(
 ) -> results.Equilibria:
     """Equilibria of the potential energy and small oscillations about them: a `carom.Equilibria`.
 
-    starts: how many trajectories' starts go downhill; saddles: looks for saddles, too. Keywords:
-    keys of a system file (particles, initial, seed, …) and threads.
+    starts: number of starts that go downhill; saddles: searches for saddles too. Keywords: keys of
+    a system file (particles, initial, seed, …) and threads.
     """
     keywords |= {"starts": starts, "saddles": saddles}
     return _compute(results.Equilibria, _carom.relax, system, "relax", keywords, progress)
@@ -235,11 +235,11 @@ def orbits(
 ) -> results.Orbits:
     """Periodic orbits of a free particle: a `carom.Orbits`.
 
-    hits: most of an orbit (6); starts: random orbits whose recurrences are looked at (20000);
-    tries: recurrences that are tried for each number of hits (2000). zeta: the escape rate of
+    hits: largest number of hits of an orbit (6); starts: random orbits in which recurrences are
+    sought (20000); tries: recurrences tried for each number of hits (2000). zeta: the escape rate of
     discs in the open plane from their orbits. certify: proves each orbit, with `digits` (20)
-    decimals of its numbers as text. Ctrl-C raises KeyboardInterrupt, whose `result` holds what
-    was found.
+    decimals of its numbers as text. Ctrl-C raises KeyboardInterrupt, whose `result` holds the
+    orbits found so far.
     """
     keywords |= {"zeta": zeta, "certify": certify}
     return _compute(results.Orbits, _carom.orbits, system, "orbit", keywords, progress)
@@ -259,7 +259,7 @@ def validate(
     """Checks the engine against identities and published values: a `carom.Validation`.
 
     scale multiplies the trajectories of every case; soak: the long runs. Ctrl-C raises
-    KeyboardInterrupt, whose `result` holds the cases that were finished.
+    KeyboardInterrupt, whose `result` holds the finished cases.
     """
     threads = "" if threads is None else toml.bare(threads, "threads")
     outcome, error = shown(progress, _carom.validate, soak, toml.bare(scale, "scale"), threads)
@@ -271,5 +271,5 @@ def validate(
 
 
 def open(path) -> stored.Result:  # noqa: A001: the name that users expect
-    """The result that an archive holds: the same classes as of the functions that compute."""
+    """The result that an archive holds, in the same classes as the functions that compute."""
     return stored.opened(path)

@@ -1,4 +1,4 @@
-"""What can be wrong with what is asked for."""
+"""Errors in the input."""
 
 import os
 from typing import NamedTuple

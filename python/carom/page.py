@@ -1,4 +1,4 @@
-"""The page that computes in a browser, with a system, in a notebook or by itself."""
+"""The page that computes in a browser, with a system: in a notebook or in a browser window."""
 
 import base64
 import html

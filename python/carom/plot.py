@@ -48,7 +48,7 @@ __all__ = (
 @_picture
 def orbit(run, ax=None, most_hits=2000, names=False, by="particle", **style):
     """The table with the orbit of each particle, from a dot to a ring: arcs are arcs, and an arrow
-    shows the direction. Coloured by "particle" or by "time"; style: that of the lines, as color."""
+    shows the direction. Coloured by "particle" or by "time"; style: keywords for the lines, such as color."""
     hits = run.hits[: most_hits * len(run.starts)]
     cells = {(0, 0)}
     for rows in (hits, run._samples):
@@ -133,8 +133,8 @@ def _by_time(lines, ax, style):
 
 @_picture
 def energy(run, ax=None, **style):
-    """Energies along the run at the times of its samples: the parts, and below them how far their
-    sum is from its start; with `ax` the parts. style: that of all lines, which then differ by their dashes; a
+    """Energies along the run at the times of its samples: the parts, and below them the change of
+    their sum since the start; with `ax` the parts. style: keywords for all lines, which then differ by their dashes; a
     label stands before the names of the parts."""
     rows = run._energies
     if not len(rows):
@@ -165,7 +165,7 @@ def energy(run, ax=None, **style):
 @_picture
 def survival(result, ax=None, scale="log", **style):
     """p(t) with its 95 % interval, and the decay that was fitted, in its window; scale of time: "log"
-    (for tails) or "linear" (for rates); style: that of the line, as color and label."""
+    (for tails) or "linear" (for rates); style: keywords for the line, such as color and label."""
     ax = _new_axes(ax)
     points = result.survival
     seen = points[(points["p"] > 0) & ((points["t"] > 0) | (scale == "linear"))]
@@ -214,7 +214,7 @@ def _decay(ax, fit, style):
 @_picture
 def rate(result, ax=None, scale=None, **style):
     """The escape rate −dp/dt with its 95 % interval; scale of time: "log" or "linear", if not given
-    what its range asks for; style: that of the line, as color and label."""
+    what its range asks for; style: keywords for the line, such as color and label."""
     ax = _new_axes(ax)
     seen = result.rate[result.rate["value"] > 0]
     seen = seen[seen["t"] > 0]
@@ -230,9 +230,9 @@ def rate(result, ax=None, scale=None, **style):
 @_picture
 def basins(result, ax=None, colour=None, x=None, y=None, size=None, **style):
     """Starts with per_trajectory, coloured by what becomes of them: "hole", "time" (of the end) or
-    "hits"; of exponents also "lambda" or "sali". x and y: columns of its rows, as "x", "y", "vx",
-    "vy"; if not given s and v_parallel of starts on walls, else the plane. Starts that
-    lie on no wall have no s and v_parallel: they are left out with a warning, and refused where all do.
+    "hits"; for exponents also "lambda" or "sali". x and y: columns of its rows, such as "x", "y",
+    "vx", "vy"; default: s and v_parallel of starts on walls, else the plane. Starts that
+    lie on no wall have no s and v_parallel: they are left out with a warning, and refused if all do.
     style: alpha and label; with color all starts are dots of one colour."""
     style = _style_of(style)
     rows = result.per_trajectory
@@ -347,7 +347,7 @@ def escape(result, ax=None, **style):
 @_picture
 def splitting(result, ax=None, **style):
     """Survival by splitting with its 95 % interval, against time or the number of hits, and the decay that was
-    fitted; style: that of the line, as color and label."""
+    fitted; style: keywords for the line, such as color and label."""
     ax = _new_axes(ax)
     x, name = ("n", "survival_hits") if "survival_hits" in result.json else ("t", "survival")
     rows = [row for row in result.json[name] if row["value"]]
@@ -362,7 +362,7 @@ def splitting(result, ax=None, **style):
 @_picture
 def section(result, ax=None, x=None, y=None, **style):
     """Points in colour by orbit: (s, v∥) over the walls, one after the other, or along a line or
-    circle; (x, y) for a condition on the velocity. Other columns by `x` and `y`. style: that of the dots, as
+    circle; (x, y) for a condition on the velocity. Other columns by `x` and `y`. style: keywords for the dots, such as
     color, label and markersize."""
     ax = _new_axes(ax, (6.0, 4.2))
     style = _style_of(style)
@@ -411,7 +411,7 @@ def _along_walls(ax, system, rows):
 @_picture
 def distances(result, ax=None, **style):
     """How far each case of `carom.validate` is from its expected value, in standard errors; the bands are one and
-    three. Of independent cases without bias 68 % and 99.7 % lie in them. style: that of the cases that passed."""
+    three. 68 % and 99.7 % of independent cases without bias lie in them. style: keywords for the cases that passed."""
     style = _style_of(style, color=COLOURS[0], marker="o", linestyle="")
     ax = _new_axes(ax, (8.0, 3.6))
     cases = result.cases[(result.cases["error"] > 0) | (result.cases["expected_error"] > 0)]

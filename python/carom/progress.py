@@ -1,4 +1,4 @@
-"""How far a computation is: in a notebook, on a terminal, or told to a function."""
+"""Progress of a computation: in a notebook, on a terminal, or passed to a function."""
 
 import base64
 import io

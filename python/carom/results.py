@@ -72,7 +72,7 @@ class Splitting(OfSystem):
 
     survival (levels in time) or survival_hits (levels in hits), and rate: a row has value, stderr,
     extrapolation, kick_error, low, high (95 %), at_kicks; t is a time, n a number of hits, rates are
-    shares per time. fit: the decay at late times or hits, as of `carom.Escape`.
+    fractions per time. fit: the decay at late times or hits, as in `carom.Escape`.
     """
 
     def _pictures(self):
@@ -85,7 +85,7 @@ class Splitting(OfSystem):
         return self._json["survival" if self.levels == "time" else "survival_hits"]
 
 
-_PER_TRAJECTORY = """One row a particle, None unless asked for.
+_PER_TRAJECTORY = """One row for each particle, with per_trajectory=True; else None.
 
         (trajectories × particles,): index; x, y (length) and vx, vy (length/time) of the start;
         fate (its name is carom.fates[fate]); hole (−1: none); time of the end (time); hits; wall
@@ -96,13 +96,13 @@ class Escape(Result, archive="escape"):
     """Survival and escape. trajectories, escaped, survived, collisions, digest … Arrays:
 
     survival       (number of times,): t (time), p, low, high (share, 95 % interval)
-    survival_hits  (number of counts,): n, p, low, high: the share still there after n hits
+    survival_hits  (number of counts,): n, p, low, high: the fraction still inside after n hits
     rate           (number of times,): t, from, to (time), value, low, high (1/time): −dp/dt
     holes          (number of holes,): name, escaped, p, low, high (share, 95 % interval)
 
     fit, fit_hits: the likeliest decay at late times, and by number of hits. model, rate (1/time) or exponent, stderr, amplitude,
-    plateau, p_value, window (time), decided, alternatives; local_slope: the rate is that of the window, which does not
-    show a law by itself; model is None where `reason` says why.
+    plateau, p_value, window (time), decided, alternatives; local_slope: the rate is that of the window, which
+    alone does not show a law; model is None where `reason` says why.
     """
 
     _COLUMNS = {
@@ -186,7 +186,7 @@ class Lyapunov(Result, archive="lyapunov"):
     per_trajectory.__doc__ = _PER_TRAJECTORY.replace(
         "else NaN.",
         """else NaN;
-        lambda (1/time): its finite-time exponent, NaN where it ended before it was looked at; sali:
+        lambda (1/time): its finite-time exponent, NaN where it ended before it was measured; sali:
         the angle between two deviations; regularity: 0 linear
         growth (regular where `regularity.regular` is not 0), 1 chaotic, 2 undecided.""",
     )
@@ -350,7 +350,7 @@ class Comparison(Result, archive="compare"):
 
 class Exact(decimal.Decimal):
     """A number whose printed digits are guaranteed; `digits` of them are decimals, `interval`
-    encloses the true one. Unit: that of what it stands for."""
+    encloses the true number. Unit: that of the quantity."""
 
     digits: int
 
@@ -402,13 +402,13 @@ class Certified(Result, archive="certified"):
 
 
 class Orbits(Result, archive="orbit"):
-    """Periodic orbits, each once but for its start, reversal and the table's symmetries.
+    """Periodic orbits, each listed once, without other starts, its reversal and symmetric copies.
 
     orbits (number of orbits,): records with hits, period (time), length (length), action (mass ·
     length²/time), trace, stability, multipliers, maslov, family, copies, reduced, word, walls, points; of these
     (hits,): wall, s (length), v_parallel, x, y, vx, vy, flight_time (time)
 
-    zeta, if asked for: escape_rate (1/time), error, lambda (1/time), lambda_error, orders
+    zeta (with zeta=True): escape_rate (1/time), error, lambda (1/time), lambda_error, orders
 
     words, recurrences, unsolved, shadowed: numbers of starts of the search.
     """

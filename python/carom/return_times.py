@@ -8,12 +8,12 @@ from .stored import Result
 class Returns(Result, archive="returns"):
     """Return times to a wall.
 
-    excursions; half (time): of the run, in which they begin; mean_time (value, stderr: time) and
-    mean_hits, expected_time and expected_hits by Kac's lemma (None where it does not say), tail and
-    tail_hits (from, to, exponent: value, stderr; None: too few long ones). Arrays:
+    excursions; half (time): half of the run, in which they begin; mean_time (value, stderr: time) and
+    mean_hits, expected_time and expected_hits by Kac's lemma (None where it does not apply), tail and
+    tail_hits (from, to, exponent: value, stderr; None: too few long excursions). Arrays:
 
     return_times  (number of bins,): from, to (time), count, density (1/time), longer (share) …
-    return_hits   (number of bins,): from, to, count, longer: by hits, the last one counted
+    return_hits   (number of bins,): from, to, count, longer: by hits, the last one included
     """
 
     def _pictures(self):

@@ -81,16 +81,16 @@ def sinai(side=1, radius=0.25, torus=None) -> System:
 
 @of_keywords
 def lorentz(lattice="triangular", spacing=2.2, radius=1) -> System:
-    """The periodic Lorentz gas: one disc a cell of a triangular or square lattice; `spacing` is that
-    of the centres (lengths)."""
+    """The periodic Lorentz gas: one disc per cell of a triangular or square lattice; `spacing` is the
+    distance of the centres (lengths)."""
     return _shape("lorentz", lattice=lattice, spacing=spacing, radius=radius)
 
 
 @of_keywords
 def discs(centers, radius=None, radii=None) -> System:
     """Hard discs in the open plane about these centers, (discs, 2), lengths; walls disc_1, disc_2,
-    … Starts are on the first of them by the
-    cosine law, unless `initial` says another."""
+    … Starts are on the first disc by the
+    cosine law, unless `initial` is given."""
     text = toml.section("table", {"shape": "discs", "centers": centers, "radius": radius, "radii": radii})
     text += toml.section("initial", {"kind": "boundary", "wall": "disc_1"})
     return System(text, "discs")._checked()
@@ -147,8 +147,8 @@ def parametric(x, y, start=None, end=None) -> System:
 
 @of_keywords
 def implicit(equation, inside=(0, 0)) -> System:
-    """The closed curve on which a formula of x and y vanishes (lengths), "x^4 + y^4 - 1": of all its curves the
-    first on the right of the point `inside`, (2,)."""
+    """The closed curve on which a formula of x and y vanishes (lengths), "x^4 + y^4 - 1": of its curves
+    the first to the right of the point `inside`, (2,)."""
     return _shape("implicit", equation=equation, inside=inside)
 
 
@@ -167,7 +167,7 @@ def svg(path, scale=None) -> System:
 
 def plane() -> System:
     """The open plane without walls, for obstacles and potentials. Particles start at the origin, unless
-    `initial` says another."""
+    `initial` is given."""
     text = toml.section("table", {"shape": "plane"})
     text += toml.section("initial", {"kind": "point", "position": [0, 0], "velocity": [1, 0]})
     return System(text, "plane")._checked()

@@ -74,8 +74,8 @@ class Sweep(Result, archive="sweep"):
     results: those of the command, in order; `sweep[i]` is the i-th. keys: records with key and
     values (as they are written). sweep: records with values and all keys of the result. Array:
 
-    table  (number of values,): the keys, then what the command has of value and error: rate,
-           rate_stderr, D, D_stderr … in the units of the result; NaN where there is none
+    table  (number of values,): the keys, then the command's values and errors: rate,
+           rate_stderr, D, D_stderr … in the units of the result; NaN: none
     """
 
     def __init__(self, outcome, system, results=None, table=None):
@@ -86,7 +86,7 @@ class Sweep(Result, archive="sweep"):
     @property
     def table(self) -> numpy.ndarray:
         """A row for each value, (values,): the keys, then each number of the result with its
-        `_stderr`, in the units of the command's own results; NaN: there is none."""
+        `_stderr`, in the units of the command's own results; NaN: none."""
         if self._table is None:
             columns = {name: numpy.asarray(column) for name, column in self._outcome.table().items()}
             self._table = numpy.empty(len(self), dtype=[(name, one.dtype) for name, one in columns.items()]).view(Rows)
@@ -96,7 +96,7 @@ class Sweep(Result, archive="sweep"):
 
     @property
     def results(self) -> list[Result]:
-        """The result of each value; of an archive they are read when they are asked for."""
+        """The result of each value; results of an archive are read on first use."""
         if self._results is None:
             self._results = [opened(value) for value in self._outcome.values]
             for result in self._results:

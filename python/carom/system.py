@@ -142,7 +142,7 @@ def of_keywords(function: Made) -> Made:
 
 
 class System:
-    """A system: what a system file says, and what was changed since. It does not change itself.
+    """A system: the contents of a system file, with changes. Its methods return new systems.
 
     Made by `carom.load`, `carom.system`, `carom.stadium` and the other shapes.
     """
@@ -256,7 +256,7 @@ class System:
 
     @property
     def name(self) -> str:
-        """As it was asked for: of a built-in system, or the file."""
+        """The name of the built-in system, or the file."""
         return self._name
 
     @property
@@ -308,7 +308,7 @@ class System:
 
     def show(self, width="100%", height=820):
         """The page that computes in a browser, with this system: in a notebook a frame (pixels), else in
-        a browser. What it shows has the bits of the module."""
+        a browser. It shows the same numbers as the module, to the last bit."""
         return page.show(self, width, height)
 
     def plot(self, ax=None, **keywords):
@@ -332,7 +332,7 @@ def load(path) -> System:
 
 
 def system(name: str) -> System:
-    """A system that Carom carries with it, by its name: see `carom.systems()`."""
+    """A built-in system, by its name: see `carom.systems()`."""
     texts = dict(_carom.systems())
     name = text_of(name, "name")
     if name not in texts:
@@ -345,5 +345,5 @@ def system(name: str) -> System:
 
 
 def systems() -> list[str]:
-    """Names of the systems that Carom carries with it."""
+    """Names of the built-in systems."""
     return [name for name, _ in _carom.systems()]

@@ -18,8 +18,8 @@ def table(
 ):
     """Walls with the direction of their arc length, holes (dashed, with their names), the sense of
     the field, level lines of the potentials; of a lattice these cells. starts: this many
-    trajectories' starts as dots with their directions; None: those that the system lists. style: that of
-    the walls, as color and label."""
+    trajectories' starts as dots with their directions; None: those that the system lists. style: keywords for
+    the walls, such as color and label."""
     made = ax is None
     ax = new_axes(ax)
     loaded = system._loaded("table")

@@ -7,7 +7,7 @@ from .axes import COLOURS, legend, new_axes, picture, plain, style_of, subplots,
 
 @picture
 def diffusion(result, ax=None, **style):
-    """The mean square displacement with its errors, and 4Dt where there is a D without a doubt; style: that
+    """The mean square displacement with its errors, and 4Dt where D is certain; style: that
     of the points, as color and label."""
     ax = new_axes(ax)
     points = result.msd
@@ -63,8 +63,8 @@ def _against_time(ax, result, points, label, style):
 
 @picture
 def free_paths(result, ax=None, **style):
-    """The share of flights that are at least so long: between hits, and from the start, hollow. style: that of
-    the points; a label stands before those of the two."""
+    """The fraction of flights of a length or longer: between hits, and (hollow) from the start. style: keywords for
+    the points; a label precedes both names."""
     ax = new_axes(ax)
     style = style_of(style, markersize=3, linewidth=1)
     before = f"{style.pop('label')}, " if "label" in style else ""
@@ -97,7 +97,7 @@ def free_paths(result, ax=None, **style):
 
 @picture
 def returns(result, ax=None, **style):
-    """The share of excursions from the wall that last t or longer."""
+    """The fraction of excursions from the wall that last t or longer."""
     ax = new_axes(ax)
     seen = result.return_times[(result.return_times["from"] > 0) & (result.return_times["longer"] > 0)]
     ax.errorbar(
