@@ -36,7 +36,7 @@ def test_an_archive_is_the_same_result(compared, tmp_path):
 def test_the_picture_has_a_line_a_scheme(compared):
     axes = compared.plot()
     labels = [text.get_text() for text in axes.get_legend().get_texts()]
-    assert labels == ["velocity-verlet", "suzuki-4", "cvode"]
+    assert labels == ["velocity-verlet", "suzuki-4", "cvode", "error wanted", "error of the reference"]
     pyplot.close("all")
 
 
