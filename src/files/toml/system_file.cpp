@@ -182,8 +182,9 @@ void note_changes(const SystemOverrides& overrides, Value& root) {
                     [&key = path](const auto& later) { return later.first == key; });
     const std::string section = path.substr(0, path.find('.'));
     if (again || section == "run" || section == "section" || section == "initial") continue;
-    const std::string change =
-        path == "table.hole" && text == "[]" ? "no holes" : path + " = " + text;
+    const std::string change = path == "table.hole" && text == "[]"  ? "no holes"
+                               : text.find('{') != std::string::npos ? path + " changed"
+                                                                     : path + " = " + text;
     if (title.find(change) != std::string::npos) continue;  // a stored system has it already
     changes += (changes.empty() ? ", with " : ", ") + change;
   }
