@@ -221,7 +221,6 @@ ExactFlight::First ExactFlight::first(const std::vector<int>& pieces, Cell cell,
     }
   }
   for (const int piece : zero_joints) {
-    if (piece == start_previous && at_joint) continue;
     const Data::View s = d.view(piece, cell);
     const ExactCurve& c = d.curve(piece);
     const ExactPoint joint{c.from.x, c.from.y, Dyadic(1)};

@@ -306,6 +306,30 @@ TEST(Beziers, ConicsWrittenAsCurvesHaveTheirOrbits) {
   expect_same_orbits(parametric("2*cos(t)", "sin(t)"), ellipse, 1e-11, 1.5, 20);
 }
 
+TEST(Beziers, JointsReflectWhereCurvesRest) {
+  // Both halves rest at both ends, where they go up and down: smooth joints.
+  const Table table = build_table(
+      path_spec(at(1, 0), {bezier({at(1, 0), at(1, 1), at(-1, 1), at(-1, 0), at(-1, 0)}),
+                           bezier({at(-1, 0), at(-1, -1), at(1, -1), at(1, 0), at(1, 0)})}));
+  for (const Vector from : {Vector{0, 0}, Vector{0, -0.25}, Vector{0, 0.25}, Vector{0.5, 0.125}})
+    for (const double side : {1.0, -1.0})
+      for (const double omega : {0.0, 0.25, -0.125}) {
+        const Vector way = Vector{side, 0} - from, v = way + 0.5 * omega * left(way);  // exact
+        World world(table);
+        Recorder seen;
+        world.add(particle(omega, std::sqrt(dot(v, v))), start(from, v));
+        world.limit_hits(2);
+        world.run_until(1e300, seen);
+        ASSERT_EQ(seen.hits.size(), 2u) << world.report(0);
+        EXPECT_EQ(seen.hits[0].position, (Vector{side, 0}))
+            << from.y << " " << side << " " << omega;
+        EXPECT_EQ(seen.hits[0].u, 0.0);
+        const Vector before = seen.hits[0].before, after = seen.hits[0].after;
+        EXPECT_NEAR(after.x, -before.x, 1e-15);
+        EXPECT_NEAR(after.y, before.y, 1e-15);
+      }
+}
+
 TEST(Beziers, JointsOfOneCurveReflect) {
   const Table table = spline({at(0, 0), at(3, -1), at(4, 1), at(2, 2), at(1, 4), at(-1, 2)});
   for (const Vector joint : {Vector{3, -1}, Vector{4, 1}, Vector{1, 4}, Vector{-1, 2}}) {

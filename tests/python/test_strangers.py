@@ -124,7 +124,7 @@ def test_rows_are_read_when_they_are_asked_for(tmp_path):
     time.sleep(0.02)
     carom.run(carom.circle(), t_max=60).save(file, force=True)
     assert (opened.hits == run.hits).all()
-    with pytest.raises(carom.InputError, match="was changed"):
+    with pytest.raises(carom.InputError, match="changed since it was opened"):
         late.hits
 
 
