@@ -162,7 +162,7 @@ Table build_table(const TableSpec& spec) {
   table.shape = spec.shape;
   const shapes::Shape shape = shapes::written_shape(spec);
   table.extent = shape.extent;
-  table.curve_distance = shape.curve_distance;
+  table.curve_errors = shape.curve_errors;
   for (const shapes::Chain& chain : shape.loops) add_loop(table, chain);
   if (shape.lattice) shapes::set_lattice(table, *shape.lattice, shapes::point(shape.cell_centre));
   if (spec.lattice) shapes::repeat(*spec.lattice, table);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "carom/geometry/curve_frame.hpp"
 #include "table/numbers.hpp"
 #include "table/quintic.hpp"
 
@@ -70,6 +71,20 @@ WrittenCurve reversed(const WrittenCurve& curve) {
 }
 
 }  // namespace
+
+CurveErrors errors_of(const Bezier& piece, double distance) {
+  const geometry::CurveFrame frame = geometry::frame_of(piece);
+  const geometry::BezierForm& form = *frame.bezier;
+  if (form.rests_at_start || form.rests_at_end) return {distance};
+  double bend = 0.0;  // the largest |x''| of the control points
+  for (int i = 0; i + 2 <= piece.degree; ++i) {
+    const Vector second = piece.control(i + 2) - 2.0 * piece.control(i + 1) + piece.control(i);
+    bend = std::max(bend, piece.degree * (piece.degree - 1) * std::sqrt(dot(second, second)));
+  }
+  const double speed = form.least_tangent, square = speed * speed;
+  return {distance, 7.6 * distance / speed,
+          84.0 * distance / square + 22.8 * bend * distance / (square * speed)};
+}
 
 double area_of(const Chain& chain) {
   double area = 0.0;

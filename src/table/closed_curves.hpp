@@ -13,7 +13,7 @@ namespace carom::table::shapes {
 
 struct ClosedCurve {
   Chain chain;
-  double distance = 0.0;  ///< Table::curve_distance
+  CurveErrors errors = {};
 };
 /// What its walls are called, STEM_1, STEM_2 …, and how they run.
 struct Layout {

@@ -106,7 +106,7 @@ class Drawing {
     chain = turned(std::move(chain), layout.clockwise);
     const std::vector<std::string> names = numbered(layout.stem, chain.size());
     for (std::size_t k = 0; k < chain.size(); ++k) chain[k].name = names[k];
-    return {std::move(chain), distance_};
+    return {std::move(chain), errors_};
   }
 
  private:
@@ -164,11 +164,10 @@ class Drawing {
     if (off <= most_distance * size_) {
       pieces_.push_back(quintic(a, b));
       try {
-        geometry::frame_of(pieces_.back());
+        include(errors_, errors_of(pieces_.back(), off));
       } catch (const std::invalid_argument&) {
         refuse("the curve has a cusp, which only its start can be,", a.at);
       }
-      distance_ = std::max(distance_, off);
       return;
     }
     const Jet middle = jet(0.5 * (a.at + b.at));
@@ -178,7 +177,8 @@ class Drawing {
   }
 
   Curve curve_;
-  double size_ = 0.0, distance_ = 0.0;
+  double size_ = 0.0;
+  CurveErrors errors_;
   Jet gap_{};  ///< between the formulas' end and their start
   std::vector<Bezier> pieces_;
 };
@@ -194,7 +194,7 @@ Parametric parametric_with(const WrittenFormula& x, const WrittenFormula& y, dou
 Shape as_table(ClosedCurve curve) {
   Shape shape;
   shape.loops.push_back(std::move(curve.chain));
-  shape.curve_distance = curve.distance;
+  shape.curve_errors = curve.errors;
   return shape;
 }
 

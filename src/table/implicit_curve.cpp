@@ -66,7 +66,7 @@ class ImplicitCurve {
       refuse("the curve on the right of 'inside' does not go around it", start.x,
              "a point between which and the table's wall nothing lies in the direction of +x");
     Shape shape;
-    shape.curve_distance = distance_;
+    shape.curve_errors = errors_;
     Chain chain;
     const std::vector<std::string> names = numbered("curve", pieces_.size());
     for (std::size_t k = 0; k < pieces_.size(); ++k)
@@ -204,7 +204,7 @@ class ImplicitCurve {
   void pieces_of(const Spot& start, double share) {
     constexpr std::size_t most_pieces = 1 << 14;
     pieces_.clear();
-    distance_ = 0.0;
+    errors_ = {};
     Spot here = start;
     double step = 0.25 * size_;
     const double shortest = 0x1p-20 * size_;
@@ -231,7 +231,7 @@ class ImplicitCurve {
                               0.25, 2.0);
         if (off <= share * size_) {
           pieces_.push_back(b);
-          distance_ = std::max(distance_, off);
+          include(errors_, errors_of(b, off));
           if (closes) return;
           here = *next;
         }
@@ -244,7 +244,8 @@ class ImplicitCurve {
   TypedExpression f_;
   Place inside_place_;
   Vector inside_;
-  double side_ = 1.0, size_ = 0.0, distance_ = 0.0;
+  double side_ = 1.0, size_ = 0.0;
+  CurveErrors errors_;
   std::vector<Bezier> pieces_;
 };
 

@@ -7,6 +7,7 @@
 #include "carom/base/fused_product.hpp"
 #include "table/closed_curves.hpp"
 #include "table/numbers.hpp"
+#include "table/quintic.hpp"
 
 namespace carom::table {
 namespace {
@@ -110,7 +111,7 @@ void add_obstacles(const TableSpec& spec, Shape& shape) {
   for (std::size_t k = 0; k < spec.obstacles.size(); ++k) {
     ClosedCurve curve = curve_of(spec.obstacles[k], name_of_obstacle(spec.obstacles, k));
     shape.loops.push_back(std::move(curve.chain));
-    shape.curve_distance = std::max(shape.curve_distance, curve.distance);
+    include(shape.curve_errors, curve.errors);
   }
 }
 

@@ -1,7 +1,10 @@
 // Pieces of curves that are written as formulas.
 #pragma once
 
+#include <algorithm>
+
 #include "carom/geometry/curve.hpp"
+#include "carom/table/table.hpp"
 
 namespace carom::table::shapes {
 
@@ -28,6 +31,15 @@ inline double between_ends(double h, double circle, double m) {
   const double h6 = h * h * h * h * h * h, around = circle * circle - h * h;
   return h6 * m * circle / (around * around * around * (circle - h));
 }
+
+/// The larger of both.
+inline void include(CurveErrors& all, const CurveErrors& more) {
+  all = {std::max(all.distance, more.distance), std::max(all.normal, more.normal),
+         std::max(all.curvature, more.curvature)};
+}
+/// Of a piece that is within `distance` of its curve by such a bound: docs/physics/exactness.md,
+/// Bézier curves. Throws std::invalid_argument where it has a cusp between its ends.
+CurveErrors errors_of(const geometry::Bezier& piece, double distance);
 
 /// By how much a piece may be off the curve that was written, of its size.
 inline constexpr double most_distance = 1e-14;

@@ -66,7 +66,7 @@ struct Shape {
   Extent extent = Extent::bounded;
   std::optional<LatticeSpec> lattice = {};
   ExactPoint cell_centre = {};
-  double curve_distance = 0.0;  ///< Table::curve_distance
+  CurveErrors curve_errors = {};
 };
 
 /// The shape of a table with its obstacles and its lattice.

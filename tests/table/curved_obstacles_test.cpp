@@ -73,7 +73,7 @@ TEST(CurvedObstacles, TakeTheirArea) {
   }
   const Table table = build_table(with(square(), polar("0.5", at("2", "2"))));
   EXPECT_NEAR(measure(table).perimeter, 16.0 + pi, 1e-12);
-  EXPECT_GT(table.curve_distance, 0.0);
+  EXPECT_GT(table.curve_errors.distance, 0.0);
 }
 
 TEST(CurvedObstacles, RunClockwiseWhicheverWayTheyAreWritten) {

@@ -57,6 +57,12 @@ struct Region {
 };
 
 /// A billiard table: its walls, the holes on them, and the plane or lattice around.
+/// By how much walls differ from the curves that were written as formulas, at most and without
+/// rounding: in place, in the angle of their normals and, except beside cusps, in curvature.
+struct CurveErrors {
+  double distance = 0.0, normal = 0.0, curvature = 0.0;
+};
+
 struct Table {
   std::string shape;
   std::vector<Wall> walls;
@@ -66,8 +72,7 @@ struct Table {
   std::optional<geometry::Lattice> lattice;  ///< set exactly when extent == lattice
   /// May walls cross? Not those of a table that was built; the edges of supports of forces do.
   bool crossing = false;
-  /// Between a curve that was written as a formula and the walls made of it, at most.
-  double curve_distance = 0.0;
+  CurveErrors curve_errors;
 
   /// The wall with that index, as events and states name it. Throws std::out_of_range for -1: no
   /// wall.

@@ -75,11 +75,11 @@ std::string table_text(const System& system, const TableMeasure& measured,
   text += fmt::format(
       "  shape        {}\n  area         {}\n  perimeter    {}\n  mean flight  {}\n\n", table.shape,
       number(measured.area), number(measured.perimeter), number(measured.mean_flight));
-  if (table.curve_distance > 0.0)
-    text.insert(
-        text.size() - 1,
-        fmt::format("  curve        {} pieces, within {:.2g} of the formula plus rounding\n",
-                    table.walls.size(), table.curve_distance));
+  if (const CurveErrors& off = table.curve_errors; off.distance > 0.0)
+    text.insert(text.size() - 1,
+                fmt::format("  curve        {} pieces, within {:.2g} of the formula plus rounding\n"
+                            "               normals within {:.2g}, curvatures within {:.2g}\n",
+                            table.walls.size(), off.distance, off.normal, off.curvature));
   std::vector<Column> columns{
       {"wall", {}, true}, {"kind", {}, true}, {"length", {}}, {"from", {}}, {"to", {}}};
   for (const Wall& wall : table.walls) {
@@ -138,7 +138,11 @@ Json table_json(const LoadedSystem& loaded, const TableMeasure& measured, const 
   json.set("area", measured.area);
   json.set("perimeter", measured.perimeter);
   json.set("mean_flight", measured.mean_flight);
-  if (system.table->curve_distance > 0.0) json.set("curve_distance", system.table->curve_distance);
+  if (const CurveErrors& off = system.table->curve_errors; off.distance > 0.0) {
+    json.set("curve_distance", off.distance);
+    json.set("curve_normal", off.normal);
+    json.set("curve_curvature", off.curvature);
+  }
   json.set("walls", walls_json(*system.table));
   json.set("holes", holes_json(*loaded.exact.spec));
   if (!output.empty()) json.set("drawing", output);
