@@ -36,6 +36,9 @@ struct Spot {
   double curvature = 0.0;
 };
 
+/// The numbers of the two searches below (shortest and longest steps, how many, how near Newton's
+/// method ends) decide what is tried and when it is given up, with the place. What is accepted is
+/// decided by enclosures alone: an interval without or with one root, a piece within `distance`.
 class ImplicitCurve {
  public:
   ImplicitCurve(const WrittenFormula& equation, const ExactPoint& inside)
@@ -130,7 +133,8 @@ class ImplicitCurve {
     l.slope = {side_ * slope[0], side_ * slope[1]};
     return l;
   }
-  /// Newton's method along the slope; none where it does not arrive within `near`.
+  /// Newton's method along the slope, to the rounding of the formula, which no bound counts; none
+  /// where it does not converge, or not within `near`.
   std::optional<Spot> onto_curve(Vector x, double near) const {
     const Vector start = x;
     double last = HUGE_VAL;
