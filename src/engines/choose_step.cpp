@@ -68,7 +68,9 @@ class TrialRuns {
     double worst = 0.0;
     for (int k = 0; k < count_; ++k) {
       world.clear();
-      add_starts(world, sampler_, static_cast<std::uint64_t>(k));
+      const auto trajectory = static_cast<std::uint64_t>(k);
+      if (starts_.size() == trajectory) starts_.push_back(sampler_.draw_all(world, trajectory));
+      add_starts(world, sampler_, starts_[trajectory], trajectory);
       const Energy start = energy(world, Time(0.0));
       if (k == 0) energy_ = start.total();
       energy_ = std::max(energy_, start.total());
@@ -111,6 +113,7 @@ class TrialRuns {
   System system_;
   std::function<bool()> stopped_;
   Sampler sampler_;
+  std::vector<std::vector<State>> starts_;  ///< by trajectory: rare starts are slow to draw
   int count_ = 1, length_ = 1;
   double energy_ = 0.0;
   std::string report_;

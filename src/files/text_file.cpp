@@ -35,6 +35,12 @@ class Descriptor {
 
 }  // namespace
 
+InputError too_long(const Place& place, std::size_t most, const std::string& subject,
+                    const std::string& expected) {
+  return InputError(place, subject + "is longer than " + std::to_string(most >> 20) + " MB",
+                    expected);
+}
+
 std::string text_of_file(const std::string& name, std::size_t most, const Place& place,
                          const std::string& subject, const std::string& expected) {
   const auto refuse = [&](const std::string& why) {
@@ -49,9 +55,7 @@ std::string text_of_file(const std::string& name, std::size_t most, const Place&
   std::string text;
   for (std::size_t size = 0;;) {
     constexpr std::size_t batch = std::size_t{1} << 20;
-    if (size > most)
-      throw InputError(place, subject + "is longer than " + std::to_string(most >> 20) + " MB",
-                       expected);
+    if (size > most) throw too_long(place, most, subject, expected);
     text.resize(size + batch);
     const ssize_t got = ::read(file.get(), text.data() + size, batch);
     text.resize(size += static_cast<std::size_t>(std::max<ssize_t>(got, 0)));

@@ -233,12 +233,6 @@ ForceBound bound_of(const TypedExpression& v, const Neighbourhood& n) {
   return bound;
 }
 
-double largest_near(const TypedExpression& f, double low, double high, double rho) {
-  Evaluation<1> evaluation(f.formula());
-  const double size = complex_box::size(evaluation.run({Box({low, high}, {-rho, rho})}).v);
-  return evaluation.kinked ? complex_box::unbounded : bounded(size);
-}
-
 ValuesOverBox values_over(const TypedExpression& f, const geometry::Box& box) {
   Evaluation<2> evaluation(f.formula());
   const Enclosed<2> all =

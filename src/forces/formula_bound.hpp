@@ -14,9 +14,6 @@ ForceBound bound_of(const TypedExpression&, const Neighbourhood&);
 /// A bound of the force of a pair, W a formula of the distance r.
 ForceBound bound_of(const TypedExpression&, double distance, double rho);
 
-/// The largest size of a formula of one variable within `rho` of the real numbers from `low` to
-/// `high`, in both directions of the complex plane; infinite where it is not analytic there.
-double largest_near(const TypedExpression&, double low, double high, double rho);
 /// What a formula of x and y and its slopes can be over a box; without bounds where it is not
 /// smooth.
 struct ValuesOverBox {

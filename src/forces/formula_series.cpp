@@ -199,10 +199,10 @@ Series apply(const Instruction& i, const Series& a, const Series& b) {
 
 }  // namespace
 
-SeriesOfRanges series_along(const TypedExpression& expression, const SeriesOfRanges& x,
-                            const SeriesOfRanges& y) {
+SeriesOfRanges series_along(const TypedExpression& expression,
+                            std::span<const SeriesOfRanges> variables) {
   const TypedExpression::Formula& f = expression.formula();
-  std::vector<Series> slots{x, y};
+  std::vector<Series> slots(variables.begin(), variables.end());
   slots.reserve(f.variables + f.instructions.size());
   for (const Instruction& i : f.instructions) slots.push_back(apply(i, slots[i.a], slots[i.b]));
   return slots[f.result];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "carom/forces/typed_expression.hpp"
 #include "forces/complex_box.hpp"
@@ -12,8 +13,7 @@ namespace carom::forces {
 /// over k!. Without bounds where f is not smooth.
 using SeriesOfRanges = std::array<complex_box::Range, 7>;
 
-/// Of a formula of x and y where x and y are functions of u.
-SeriesOfRanges series_along(const TypedExpression&, const SeriesOfRanges& x,
-                            const SeriesOfRanges& y);
+/// Of a formula whose variables are functions of u.
+SeriesOfRanges series_along(const TypedExpression&, std::span<const SeriesOfRanges> variables);
 
 }  // namespace carom::forces

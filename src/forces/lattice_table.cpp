@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::size_t most_numbers = std::size_t{1}
                                      << 16;  // half a megabyte: what a core keeps near
+/// At all nodes together, where a finer grid than the coarsest is tried: a second of preparation.
+constexpr double most_copies_at_nodes = 2e6;
 constexpr int most_near_beside_a_polynomial = 8;
 constexpr std::size_t orders = LatticeSum::most_degree + 1;
 
@@ -58,6 +60,14 @@ void for_copies_about(Vector node, const std::vector<Vector>& centers, const Bas
         if (square <= reach * reach) visit(Copy{square, from});
       }
   }
+}
+
+/// About how many they are, and not fewer unless the disc is smaller than a cell.
+double copies_within(double reach, const std::vector<Vector>& centers,
+                     const geometry::Lattice& lattice) {
+  constexpr double square_about_disc = 4.0;
+  return square_about_disc * reach * reach / lattice.cell_area() *
+         static_cast<double>(centers.size());
 }
 
 /// All of them; the nearest `sorted` first.
@@ -228,11 +238,7 @@ std::optional<std::vector<Vector>> seen_from_copies(Vector point,
                                                     const std::vector<Vector>& centers,
                                                     const geometry::Lattice& lattice, double reach,
                                                     double most) {
-  constexpr double square_about_disc = 4.0;
-  if (!(square_about_disc * reach * reach / lattice.cell_area() *
-            static_cast<double>(centers.size()) <=
-        most))
-    return {};
+  if (!(copies_within(reach, centers, lattice) <= most)) return {};
   std::vector<Vector> seen;
   for (const Copy& copy : copies_about(point, centers, shortest(lattice), reach, 0))
     seen.push_back(copy.d);
@@ -243,7 +249,9 @@ LatticeTable::LatticeTable(const BumpShape& shape, const std::vector<Vector>& ce
                            const geometry::Lattice& lattice, double reach) {
   const Basis basis = shortest(lattice);
   Choice choice;
+  const double in_reach = copies_within(reach, centers, lattice);
   for (const int grid : {coarsest, 8, 16, 32}) {
+    if (grid > coarsest && grid * grid * in_reach > most_copies_at_nodes) break;
     const Choice c = best_on(grid, shape, centers, basis, reach);
     if (c.cost < choice.cost) choice = c;
     if (choice.degree < 0 && choice.near <= 4) break;  // finer ones gain nothing

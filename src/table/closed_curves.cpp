@@ -82,8 +82,8 @@ CurveErrors errors_of(const Bezier& piece, double distance) {
     bend = std::max(bend, piece.degree * (piece.degree - 1) * std::sqrt(dot(second, second)));
   }
   const double speed = form.least_tangent, square = speed * speed;
-  return {distance, 7.6 * distance / speed,
-          84.0 * distance / square + 22.8 * bend * distance / (square * speed)};
+  return {distance, 3.5 * distance / speed,
+          24.1 * distance / square + 10.5 * bend * distance / (square * speed)};
 }
 
 double area_of(const Chain& chain) {

@@ -11,7 +11,7 @@
 #include "carom/base/elementary.hpp"
 #include "carom/base/whole_number.hpp"
 #include "carom/geometry/curve_frame.hpp"
-#include "forces/formula_bound.hpp"
+#include "forces/formula_series.hpp"
 #include "table/closed_curves.hpp"
 #include "table/numbers.hpp"
 #include "table/quintic.hpp"
@@ -25,6 +25,13 @@ using geometry::Vector;
 constexpr double two_pi = 6.283185307179586;
 
 using Formula = TypedExpression;
+using forces::complex_box::Range;
+
+/// At most, with some room for its own rounding.
+double length_of(Range x, Range y) {
+  const double a = largest(x), b = largest(y);
+  return 1.0001 * std::sqrt(a * a + b * b);
+}
 
 using Numbers = std::map<std::string, double>;
 
@@ -53,10 +60,12 @@ struct Polar {
     return {phi, (r > 0.0 ? r : NAN) * out, slope * out + r * across,
             (bend - r) * out + (2.0 * slope) * across};
   }
-  /// |cos|, |sin| <= cosh rho.
-  double largest_near(double low, double high, double rho) const {
-    return 0.7072 * (elementary::exp(rho) + elementary::exp(-rho)) *
-           forces::largest_near(radius, low, high, rho);
+  /// The sixth derivative over 6! of r e^(i phi), turned back by e^(-i phi), between two angles.
+  double sixth(double low, double high) const {
+    const forces::SeriesOfRanges phi{Range{low, high}, Range{1.0, 1.0}};
+    const forces::SeriesOfRanges r = forces::series_along(radius, {&phi, 1});
+    return length_of(r[6] - 0.5 * r[4] + (1.0 / 24.0) * r[2] - (1.0 / 720.0) * r[0],
+                     r[5] - (1.0 / 6.0) * r[3] + (1.0 / 120.0) * r[1]);
   }
 };
 
@@ -74,10 +83,10 @@ struct Parametric {
     j.x.y = y.value_gradient_and_hessian({&t, 1}, {&j.first.y, 1}, {&j.second.y, 1});
     return j;
   }
-  double largest_near(double low, double high, double rho) const {
-    const double a = forces::largest_near(x, low, high, rho),
-                 b = forces::largest_near(y, low, high, rho);
-    return 1.0001 * std::sqrt(a * a + b * b);
+  /// The sixth derivative over 6! between two parameters.
+  double sixth(double low, double high) const {
+    const forces::SeriesOfRanges t{Range{low, high}, Range{1.0, 1.0}};
+    return length_of(forces::series_along(x, {&t, 1})[6], forces::series_along(y, {&t, 1})[6]);
   }
 };
 
@@ -146,34 +155,32 @@ class Drawing {
     return length_of(gap_.x) + length * (length_of(gap_.first) + length * length_of(gap_.second));
   }
 
-  /// How far the quintic is from the curve at most: docs/physics/exactness.md, Bézier curves. h is
-  /// half of the length, `circle` the radius of Cauchy's circle about the middle.
-  double distance(const Jet& a, const Jet& b) const {
-    const double h = 0.5 * (b.at - a.at);
-    double least = HUGE_VAL;
-    for (double circle = 4.0; circle > 1.5 * h; circle *= 0.75) {
-      const double bound = between_ends(
-          h, circle, curve_.largest_near(a.at - (circle - h), b.at + (circle - h), circle));
-      if (bound < least) least = bound;
-    }
-    return least;
-  }
-
   void cut(const Jet& a, const Jet& b, int depth) {
-    const double off = distance(a, b) + (b.at == curve_.to ? missed(b.at - a.at) : 0.0);
+    // How far the quintic is from the curve at most: docs/physics/exactness.md, Bézier curves.
+    const double h = 0.5 * (b.at - a.at), h3 = h * h * h;
+    const double off =
+        h3 * h3 * curve_.sixth(a.at, b.at) + (b.at == curve_.to ? missed(b.at - a.at) : 0.0);
     if (off <= most_distance * size_) {
-      pieces_.push_back(quintic(a, b));
-      try {
-        include(errors_, errors_of(pieces_.back(), off));
-      } catch (const std::invalid_argument&) {
-        refuse("the curve has a cusp, which only its start can be,", a.at);
+      const Bezier piece = quintic(a, b);
+      const CurveErrors errors = errors_between(a, piece, off);
+      if (as_promised(errors, size_)) {
+        pieces_.push_back(piece);
+        include(errors_, errors);
+        return;
       }
-      return;
     }
     const Jet middle = jet(0.5 * (a.at + b.at));
     if (depth == deepest) refuse("the curve is too wild for Bézier curves", middle.at);
     cut(a, middle, depth + 1);
     cut(middle, b, depth + 1);
+  }
+
+  CurveErrors errors_between(const Jet& a, const Bezier& piece, double off) const {
+    try {
+      return errors_of(piece, off);
+    } catch (const std::invalid_argument&) {
+      refuse("the curve has a cusp, which only its start can be,", a.at);
+    }
   }
 
   Curve curve_;

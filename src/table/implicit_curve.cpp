@@ -60,9 +60,7 @@ class ImplicitCurve {
     pieces_of(start, 0x1p-10);
     for (const Bezier& piece : pieces_)
       size_ = std::max(size_, 0.5 * length_of(piece.from - pieces_[0].from));
-    // Well below what is promised: the distance is as large as its bound here, and with it how far
-    // normals are turned.
-    pieces_of(start, 0x1p-4 * most_distance);
+    pieces_of(start, most_distance);
     double area = 0.0;
     for (const Bezier& piece : pieces_) area += geometry::area_integral(piece);
     if (area < 0.0)
@@ -179,7 +177,7 @@ class ImplicitCurve {
       binomial = binomial * static_cast<double>(5 - k) / static_cast<double>(k + 1);
     }
     // The equation along it vanishes at both ends with its first two derivatives.
-    const double most = 0x1p-6 * largest(forces::series_along(f_, x, y)[6]);
+    const double most = 0x1p-6 * largest(forces::series_along(f_, std::array{x, y})[6]);
     // From a point of it the curve is met along the normal of its chord, within `most` over the
     // slope of the equation there.
     const Vector way = b.to - b.from, n = (1.0 / length_of(way)) * left(way);
@@ -233,11 +231,15 @@ class ImplicitCurve {
         if (off > 0.0 && off < HUGE_VAL)
           factor = std::clamp(0.9 * elementary::exp(elementary::log(share * size_ / off) / 6.0),
                               0.25, 2.0);
-        if (off <= share * size_) {
+        const bool near = off <= share * size_;
+        const CurveErrors errors = near ? errors_of(b, off) : CurveErrors{};
+        if (near && (share > most_distance || as_promised(errors, size_))) {
           pieces_.push_back(b);
-          include(errors_, errors_of(b, off));
+          include(errors_, errors);
           if (closes) return;
           here = *next;
+        } else {
+          factor = std::min(factor, 0.75);
         }
       }
       step *= factor;

@@ -24,25 +24,22 @@ inline geometry::Bezier quintic(const Jet& a, const Jet& b) {
           5};
 }
 
-/// A bound of a function that is analytic within `circle` of the middle of [m - h, m + h], where it
-/// is at most m in size, and that vanishes at both ends with its first two derivatives: Cauchy's
-/// formula, docs/physics/exactness.md, Bézier curves.
-inline double between_ends(double h, double circle, double m) {
-  const double h6 = h * h * h * h * h * h, around = circle * circle - h * h;
-  return h6 * m * circle / (around * around * around * (circle - h));
-}
-
 /// The larger of both.
 inline void include(CurveErrors& all, const CurveErrors& more) {
   all = {std::max(all.distance, more.distance), std::max(all.normal, more.normal),
          std::max(all.curvature, more.curvature)};
 }
-/// Of a piece that is within `distance` of its curve by such a bound: docs/physics/exactness.md,
-/// Bézier curves. Throws std::invalid_argument where it has a cusp between its ends.
+/// Of a piece whose `distance` is such a bound: docs/physics/exactness.md, Bézier curves. Throws
+/// std::invalid_argument where it has a cusp between its ends.
 CurveErrors errors_of(const geometry::Bezier& piece, double distance);
 
 /// By how much a piece may be off the curve that was written, of its size.
 inline constexpr double most_distance = 1e-14;
+/// Distances of that, normals to 1e-11, curvatures to 1e-8 of the inverse size.
+inline bool as_promised(const CurveErrors& off, double size) {
+  return off.distance <= most_distance * size && off.normal <= 1e-11 &&
+         off.curvature * size <= 1e-8;
+}
 /// The declared angle pi/1 where pieces of one curve join: rounding turns their tangents.
 inline constexpr int smooth = 1;
 

@@ -308,9 +308,8 @@ TEST(Beziers, NormalsAndCurvaturesAreAsCloseAsIsSaid) {
     const CurveErrors& off = table.curve_errors;
     std::printf("%-14s distance %.1e, normals %.1e, curvatures %.1e\n", name, off.distance,
                 off.normal, off.curvature);
-    if (std::string(name) == "cardioid") continue;  // beside its cusp curvatures have no bound
-    EXPECT_LE(off.normal, 1e-10) << name;
-    EXPECT_LE(off.curvature, 1e-6) << name;
+    EXPECT_LE(off.normal, 1e-11) << name;
+    EXPECT_LE(off.curvature, 1e-8) << name;
   }
 }
 
@@ -318,18 +317,17 @@ TEST(Beziers, ConicsWrittenAsCurvesHaveTheirOrbits) {
   const Table circle = build_table(*carom::circle(1).spec),
               ellipse = build_table(*carom::ellipse(2, 1).spec);
   for (const double omega : {0.0, 0.3, -1.2})
-    expect_same_orbits(polar("1 + 0*phi"), circle, 1e-12, omega);
-  // Shorter pieces: rounding of their ends turns normals more.
+    expect_same_orbits(polar("1 + 0*phi"), circle, 3e-11, omega);
   for (const TableSpec& spec :
        {implicit_spec("x^2 + y^2 - 1"), implicit_spec("1 - sqrt(x^2 + y^2)", at(0.25, 0.5))})
     for (const double omega : {0.0, 0.3, -1.2})
-      expect_same_orbits(build_table(spec), circle, 1e-11, omega);
-  expect_same_orbits(parametric("2*cos(t)", "sin(t)"), ellipse, 1e-11, 0.0);
-  expect_same_orbits(build_table(implicit_spec("x^2/4 + y^2 - 1")), ellipse, 1e-11, 0.0);
+      expect_same_orbits(build_table(spec), circle, 3e-11, omega);
+  expect_same_orbits(parametric("2*cos(t)", "sin(t)"), ellipse, 3e-11, 0.0);
+  expect_same_orbits(build_table(implicit_spec("x^2/4 + y^2 - 1")), ellipse, 3e-11, 0.0);
   // The other way round it is the same table.
-  expect_same_orbits(parametric("2*cos(t)", "-sin(t)"), ellipse, 1e-11, 0.0);
+  expect_same_orbits(parametric("2*cos(t)", "-sin(t)"), ellipse, 3e-11, 0.0);
   // Chaotic in a field, so for a few hits alone.
-  expect_same_orbits(parametric("2*cos(t)", "sin(t)"), ellipse, 1e-11, 1.5, 20);
+  expect_same_orbits(parametric("2*cos(t)", "sin(t)"), ellipse, 1e-11, 1.5, 8);
 }
 
 TEST(Beziers, JointsReflectWhereCurvesRest) {

@@ -88,6 +88,8 @@ TEST(Nesting, ValuesHaveALimit) {
 TEST(TextFile, DevicesPipesAndFoldersAreRefused) {
   const ScratchFolder folder;
   EXPECT_EQ(fault_of_file("/dev/zero").problem(), "is longer than 128 MB");
+  EXPECT_EQ(fault(std::string((std::size_t{128} << 20) + 1, '\n')).problem(),
+            "is longer than 128 MB");
   EXPECT_EQ(fault_of_file("/dev").problem(), "is a folder");
   const std::string pipe = folder.file("pipe.toml");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

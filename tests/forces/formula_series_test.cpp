@@ -17,6 +17,11 @@ TypedExpression parsed(const char* text) {
   return TypedExpression::parse(text, std::vector<std::string>{"x", "y"}, {}, {});
 }
 
+SeriesOfRanges series_along(const TypedExpression& f, const SeriesOfRanges& x,
+                            const SeriesOfRanges& y) {
+  return forces::series_along(f, std::array{x, y});
+}
+
 /// a + b u + c u^2 about every u of [0, h].
 SeriesOfRanges over(double h, double a, double b, double c) {
   const Range u{0.0, h};

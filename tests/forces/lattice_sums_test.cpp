@@ -91,6 +91,30 @@ TEST(LatticeTables, AreTheSumsOfAllCopies) {
   EXPECT_GE(with_polynomials, 4);
 }
 
+// Bumps much broader than a cell: finer grids would take minutes, and the coarsest has the sum.
+TEST(LatticeTables, OfBroadBumpsAreCoarse) {
+  Case c;
+  c.shape.radius = 0.15;
+  c.shape.softness = 2.0;
+  c.lattice = geometry::make_lattice({1.0, 0.0}, {0.5, 0.875}, {0.0, 0.0});
+  c.centers = {{0.0, 0.0}};
+  const LatticeTable table(c.shape, c.centers, c.lattice, c.reach());
+  EXPECT_EQ(table.sum().mask, 3);
+  EXPECT_LE(table.error(), tail_share);
+  const auto potential = make_lattice_bumps(c.shape, 1.0, c.centers, c.lattice, c.reach());
+  const auto copies = copies_that_reach(c.centers, c.lattice, 1.5 * c.reach());
+  const auto one_by_one = make_fermi_bumps(1.0, c.shape.radius, c.shape.softness, copies);
+  std::mt19937_64 generator(3);
+  for (int i = 0; i < 5; ++i) {
+    const Vector x = in_cell(c.lattice, generator);
+    Vector f{}, g{};
+    const double v = potential->add_force({}, x, f), w = one_by_one->add_force({}, x, g);
+    EXPECT_NEAR(v, w, 1e-13 * w);
+    EXPECT_NEAR(f.x, g.x, 1e-13 * w);
+    EXPECT_NEAR(f.y, g.y, 1e-13 * w);
+  }
+}
+
 // Bumps much smaller than the mesh: many nodes have none near.
 TEST(LatticeTables, HaveNoBumpsWhereThereAreNone) {
   for (const Kind kind : {Kind::fermi, Kind::gaussian}) {

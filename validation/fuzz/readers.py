@@ -43,7 +43,7 @@ FINE = {"read", "refused"}
 SILENCE = 120.0                # seconds of the processor without an answer: a busy machine is no fault
 HANG = 900.0                   # seconds of a clock without an answer
 ENVIRONMENT = {
-    "ASAN_OPTIONS": "detect_leaks=0:max_allocation_size_mb=2048:hard_rss_limit_mb=4096:allocator_may_return_null=0",
+    "ASAN_OPTIONS": "detect_leaks=0:malloc_context_size=1:max_allocation_size_mb=2048:hard_rss_limit_mb=4096:allocator_may_return_null=0",
     "UBSAN_OPTIONS": "print_stacktrace=1",
     "OMP_NUM_THREADS": "1",
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "files/text_file.hpp"
 #include "files/toml/nesting.hpp"
 #include "files/toml/value.hpp"
 
@@ -127,6 +128,7 @@ void move_to(const Place& place, Value& value) {
 }  // namespace
 
 Value parse_document(std::string_view text, const std::string& file) {
+  if (text.size() > most_of_system_file) throw too_long({file, 0, 0, ""}, most_of_system_file);
   check_nesting(text, file);
   try {
     const toml::table root = toml::parse(text, std::string_view(file));
