@@ -23,11 +23,14 @@ namespace {
 
 constexpr double wanted_energy_error = 1e-10;
 constexpr int most_trials = 16, steps_of_a_trial = 100, looks = 10;
+/// Of a particle in a trial run, which ends there: forces that press a particle against a wall make
+/// it hit without end, and so do walls much nearer to each other than a step is long.
+constexpr int most_hits = 1000;
 /// Evaluations of pair forces that all trial runs of one step may cost.
 constexpr double affordable = 2e7;
 /// Meshes of forces that are bounded for all steps together; no step needs as many, but a force of
 /// thousands of narrow parts may.
-constexpr int most_meshes = 250000;
+constexpr int most_meshes = 50000;
 /// The shortest step that is tried, against the longest that is resolved at the start, and against
 /// the longest that is resolved all along.
 constexpr double shortest_resolved = 1e-3, shortest = 1e-2;
@@ -68,6 +71,7 @@ class TrialRuns {
     double worst = 0.0;
     for (int k = 0; k < count_; ++k) {
       world.clear();
+      world.limit_hits(most_hits);
       const auto trajectory = static_cast<std::uint64_t>(k);
       if (starts_.size() == trajectory) starts_.push_back(sampler_.draw_all(world, trajectory));
       add_starts(world, sampler_, starts_[trajectory], trajectory);

@@ -61,6 +61,19 @@ TEST(ChosenSteps, SeeANarrowBumpThatNoPilotOrbitMeets) {
   EXPECT_GT(step("0.3"), 0.03);
 }
 
+// The force presses the particle against the wall, which it hits 300 million times until t_max.
+TEST(ChosenSteps, TrialRunsDoNotFollowWhatRollsAlongAWall) {
+  const double step =
+      read_system(
+          "[table]\nshape = \"circle\"\nradius = 1\n[[potential]]\nkind = \"expression\"\n"
+          "expression = \"-50*(x^2+y^2)\"\n[initial]\nkind = \"point\"\nposition = "
+          "[\"1 - 1e-13\", 0]\nvelocity = [0, 1]\n[run]\nt_max = 10\n",
+          "rolling")
+          .system.dynamics.integrator.step;
+  EXPECT_GT(step, 0.0);
+  EXPECT_LT(step, 0.1);
+}
+
 TEST(ChosenSteps, AForceWithoutABoundIsRefused) {
   try {
     read_system(
