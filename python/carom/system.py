@@ -209,7 +209,8 @@ class System:
 
     @of_keywords
     def wall(self, law, wall=None, **keys) -> "System":
-        """How a wall reflects, or all of them: law "specular", "diffuse" or "mixed" {specularity}."""
+        """How a wall reflects, or all of them: law "specular", "diffuse", "mixed" {specularity}, "rough"
+        {angle} or "thermal" {temperature, an energy}."""
         return self._append(toml.section("table.wall", {"wall": wall, "law": law, **keys}, True))
 
     @of_keywords

@@ -26,6 +26,8 @@ constexpr int most_trials = 16, steps_of_a_trial = 100, looks = 10;
 /// Of a particle in a trial run, which ends there: forces that press a particle against a wall make
 /// it hit without end, and so do walls much nearer to each other than a step is long.
 constexpr int most_hits = 1000;
+/// Particles that fly in a trial run if they do not interact.
+constexpr std::size_t most_alone = 100;
 /// Evaluations of pair forces that all trial runs of one step may cost.
 constexpr double affordable = 2e7;
 /// Meshes of forces that are bounded for all steps together; no step needs as many, but a force of
@@ -46,7 +48,9 @@ class TrialRuns {
  public:
   TrialRuns(const System& system, const std::function<bool()>& stopped)
       : system_(system), stopped_(stopped), sampler_(system_, stopped) {
-    const double n = static_cast<double>(system.particles.size());
+    const std::size_t all = system.particles.size();
+    if (!system.dynamics.forces->interacts()) stride_ = (all - 1) / most_alone + 1;
+    const double n = static_cast<double>((all - 1) / stride_ + 1);
     const double each = 11.0 * n * std::max(1.0, 0.5 * (n - 1.0));
     count_ =
         std::clamp(static_cast<int>(affordable / (each * 10.0 * steps_of_a_trial)), 1, most_trials);
@@ -74,7 +78,8 @@ class TrialRuns {
       world.limit_hits(most_hits);
       const auto trajectory = static_cast<std::uint64_t>(k);
       if (starts_.size() == trajectory) starts_.push_back(sampler_.draw_all(world, trajectory));
-      add_starts(world, sampler_, starts_[trajectory], trajectory);
+      for (std::size_t p = 0; p < starts_[trajectory].size(); p += stride_)
+        add_start(world, system_, starts_[trajectory][p], trajectory, static_cast<int>(p));
       const Energy start = energy(world, Time(0.0));
       if (k == 0) energy_ = start.total();
       energy_ = std::max(energy_, start.total());
@@ -118,6 +123,7 @@ class TrialRuns {
   std::function<bool()> stopped_;
   Sampler sampler_;
   std::vector<std::vector<State>> starts_;  ///< by trajectory: rare starts are slow to draw
+  std::size_t stride_ = 1;  ///< between the particles that fly, of those that do not interact
   int count_ = 1, length_ = 1;
   double energy_ = 0.0;
   std::string report_;

@@ -192,8 +192,9 @@ int World::add(const Particle& particle, const State& state, std::uint64_t hits,
   const bool forces = w.regions.any(), by_range = w.regions.by_range();
   // A particle that rests may be met by one that comes within its range.
   const bool integrated = forces && (w.regions.hold(state.position) || (by_range && rests));
-  // Under forces and of discs the speed is not a constant: this is that of the start.
-  if (forces || w.discs)
+  // Under forces, of discs and between thermal walls the speed is not a constant: this is that of
+  // the start.
+  if (forces || w.discs || w.flights.change_speeds())
     b.particle.speed = speed > 0.0 ? speed : std::sqrt(dot(state.velocity, state.velocity));
   if (w.discs) w.discs->check(b);
   if (!forces)

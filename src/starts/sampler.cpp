@@ -389,11 +389,7 @@ int add_start(World& world, const Sampler& sampler, std::uint64_t trajectory, in
 }
 
 void add_starts(World& world, const Sampler& sampler, std::uint64_t trajectory) {
-  add_starts(world, sampler, sampler.draw_all(world, trajectory), trajectory);
-}
-
-void add_starts(World& world, const Sampler& sampler, const std::vector<State>& states,
-                std::uint64_t trajectory) {
+  const std::vector<State> states = sampler.draw_all(world, trajectory);
   for (std::size_t p = 0; p < states.size(); ++p) {
     if (sampler.stopped()) throw SamplingStopped();
     add_start(world, sampler.system(), states[p], trajectory, static_cast<int>(p));

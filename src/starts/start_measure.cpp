@@ -44,6 +44,7 @@ std::string why_not_stationary(const System& system) {
       return "they are listed";
   }
   if (lets_go(*system.table)) return "particles leave";
+  if (is_thermal(*system.table)) return "walls change the speeds";
   for (const Region& region : system.table->regions)
     if (region.index != 1.0) return "they are uniform where a refractive index differs";
   const Dynamics& d = system.dynamics;

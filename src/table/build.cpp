@@ -104,17 +104,26 @@ int Table::wall_index(const std::string& name) const {
   return -1;
 }
 
+namespace {
+bool is_mirror(const Wall& wall) {
+  return !(wall.specularity < 1.0) && !(wall.roughness > 0.0) && !(wall.temperature > 0.0);
+}
+}  // namespace
+
 bool scatters(const Table& table) {
-  return std::any_of(
-             table.walls.begin(), table.walls.end(),
-             [](const Wall& wall) { return wall.specularity < 1.0 || wall.roughness > 0.0; }) ||
+  return !std::all_of(table.walls.begin(), table.walls.end(), is_mirror) ||
          std::any_of(table.holes.begin(), table.holes.end(),
                      [](const Hole& hole) { return hole.transmission < 1.0; });
 }
 
+bool is_thermal(const Table& table) {
+  return std::any_of(table.walls.begin(), table.walls.end(),
+                     [](const Wall& wall) { return wall.temperature > 0.0; });
+}
+
 void refuse_all_but_mirrors(const Table& table, const char* what) {
   for (const Wall& wall : table.walls) {
-    if (wall.specularity < 1.0 || wall.roughness > 0.0)
+    if (!is_mirror(wall))
       throw InputError(Place{"", 0, 0, "table.wall"},
                        "wall '" + wall.name + "' reflects at random, and there are no " + what +
                            " with such walls",

@@ -131,6 +131,9 @@ void add_holes(const TableSpec& spec, Table& table) {
 
 void add_laws(const TableSpec& spec, Table& table) {
   for (const WallLawSpec& law : spec.laws) {
+    if (law.temperature > 0.0 && !table.regions.empty())
+      throw InputError(law.place, "walls that change speeds beside regions that change them",
+                       "another law, or no [[table.region]]");
     const int named = law.wall.empty() ? -1 : named_wall(law.wall, law.wall_place, table);
     if (named >= 0 && table.walls[static_cast<std::size_t>(named)].twin >= 0)
       throw InputError(law.wall_place, "particles pass wall '" + law.wall + "' of a region",
@@ -139,6 +142,7 @@ void add_laws(const TableSpec& spec, Table& table) {
       if (named < 0 ? table.walls[k].twin < 0 : static_cast<std::size_t>(named) == k) {
         table.walls[k].specularity = law.specularity;
         table.walls[k].roughness = law.roughness;
+        table.walls[k].temperature = law.temperature;
       }
   }
 }

@@ -24,7 +24,7 @@ using geometry::Vector;
 
 double length_of(Vector v) { return std::sqrt(dot(v, v)); }
 
-std::string shown(Vector v) {
+std::string shown_place(Vector v) {
   char text[64];
   std::snprintf(text, sizeof text, "(%.4g, %.4g)", v.x, v.y);
   return text;
@@ -79,7 +79,7 @@ class ImplicitCurve {
  private:
   [[noreturn]] void refuse(const std::string& problem, Vector at,
                            const char* expected = "a smooth closed curve around 'inside'") const {
-    throw InputError(place_, problem + " near " + shown(at), expected);
+    throw InputError(place_, problem + " near " + shown_place(at), expected);
   }
 
   /// The first wall on the way from `inside` along +x: intervals in which the equation surely has

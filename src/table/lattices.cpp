@@ -13,7 +13,7 @@ namespace {
 
 using geometry::Vector;
 
-std::string shown(Vector v) {
+std::string shown_vector(Vector v) {
   char text[64];
   std::snprintf(text, sizeof text, "[%.9g, %.9g]", v.x, v.y);
   return text;
@@ -29,12 +29,12 @@ void refuse_long_vectors(const geometry::Lattice& lattice, const Place& place) {
       }))
     return;
   const auto [first, second] = geometry::shortest_cells(lattice);
-  throw InputError(
-      place,
-      "the lattice vectors are more than " + std::to_string(most) +
-          " times as long as it needs, or nearly parallel",
-      "shorter vectors of the same lattice: " + shown(geometry::displacement(lattice, first)) +
-          " and " + shown(geometry::displacement(lattice, second)));
+  throw InputError(place,
+                   "the lattice vectors are more than " + std::to_string(most) +
+                       " times as long as it needs, or nearly parallel",
+                   "shorter vectors of the same lattice: " +
+                       shown_vector(geometry::displacement(lattice, first)) + " and " +
+                       shown_vector(geometry::displacement(lattice, second)));
 }
 
 std::vector<ExactNumber> radii_of(const TableSpec& spec, std::size_t count) {

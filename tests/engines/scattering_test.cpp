@@ -86,6 +86,95 @@ TEST(Scattering, OfDiffuseWallsForgetsTheWayIn) {
   EXPECT_NEAR(mean, measure(*system.table).mean_flight, 4.0 * error);
 }
 
+// The largest distance of the distribution from that with the given function, times sqrt(n).
+template <class Distribution>
+double kolmogorov_from(std::vector<double> x, const Distribution& below) {
+  std::sort(x.begin(), x.end());
+  const auto n = static_cast<double>(x.size());
+  double worst = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    worst = std::max(worst, std::fabs(below(x[i]) - (static_cast<double>(i) + 0.5) / n));
+  return worst * std::sqrt(n);
+}
+
+std::string thermal(double temperature) {
+  return walls("thermal") + "temperature = " + std::to_string(temperature) + "\n";
+}
+
+class Velocities : public Observer {
+ public:
+  explicit Velocities(const Table& table) {
+    for (const Wall& wall : table.walls) frames_.push_back(geometry::frame_of(wall.curve));
+  }
+  void hit(const HitEvent& e) override {
+    const geometry::CurveFrame& frame = frames_[static_cast<std::size_t>(e.wall)];
+    const geometry::Vector n = geometry::normal_at(frame, e.u);
+    normal.push_back(dot(n, e.after));
+    along.push_back(cross(n, e.after));
+    change = std::max(change, std::fabs(dot(e.before, e.before) / square_ - 1.0));
+    square_ = dot(e.after, e.after);
+  }
+  void end(const EndEvent&) override { square_ = start; }
+  std::vector<double> normal, along;
+  double start = 1.0, change = 0.0;  // of the squared speed within a flight
+
+ private:
+  std::vector<geometry::CurveFrame> frames_;
+  double square_ = 1.0;
+};
+
+TEST(Scattering, OfThermalWallsIsTheFluxOfAGas) {
+  for (const char* field : {"", "[field]\nB = 0.5\n"}) {
+    const System system = system_of(stadium + thermal(0.25) + field +
+                                    "[particles]\nmass = 2\n[run]\nt_max = 300\n"
+                                    "trajectories = 200\n");
+    Velocities seen(*system.table);
+    for_each_trajectory(system, {0, system.run.trajectories}, seen);
+    ASSERT_GT(seen.normal.size(), 10000u);
+    EXPECT_LT(seen.change, 1e-13);
+    // m/T is 8.
+    EXPECT_LT(kolmogorov_from(seen.normal, [](double v) { return 1.0 - std::exp(-4.0 * v * v); }),
+              1.95);
+    EXPECT_LT(kolmogorov_from(seen.along, [](double v) { return 0.5 * std::erfc(-2.0 * v); }),
+              1.95);
+    EXPECT_LT(std::fabs(correlation(seen.normal, seen.along)),
+              3.3 / std::sqrt(static_cast<double>(seen.normal.size())));
+  }
+}
+
+TEST(Scattering, BetweenThermalWallsAGasHasTheirTemperature) {
+  for (const char* field : {"", "[field]\nB = 1\n"}) {
+    const System system =
+        system_of(stadium + thermal(2) + field + "[run]\nt_max = 40\ntrajectories = 4000\n");
+    class Sampled : public Observer {
+     public:
+      void end(const EndEvent& e) override {
+        squares.push_back(dot(e.state.velocity, e.state.velocity));
+      }
+      std::vector<double> squares;
+    } seen;
+    for_each_trajectory(system, {0, system.run.trajectories}, seen);
+    EXPECT_LT(kolmogorov_from(seen.squares, [](double v) { return 1.0 - std::exp(-0.25 * v); }),
+              1.95);
+  }
+}
+
+TEST(Scattering, ThermalWallsAreRefusedWhereOneSpeedCounts) {
+  const auto fault = [](const std::string& toml) {
+    try {
+      system_of(toml);
+    } catch (const InputError& error) {
+      return error.place().key;
+    }
+    return std::string("no fault");
+  };
+  EXPECT_EQ(fault(stadium + thermal(1)), "no fault");
+  EXPECT_EQ(fault(stadium + thermal(0)), "table.wall.temperature");
+  EXPECT_EQ(fault(stadium + thermal(-1)), "table.wall.temperature");
+  EXPECT_NE(fault(stadium + thermal(1) + "[[potential]]\nkind = \"harmonic\"\nomega = 1\n"),
+            "no fault");
+}
+
 TEST(Scattering, OfMixedWallsMirrorsItsShare) {
   const System system = system_of(stadium + "[[table.wall]]\nlaw = \"mixed\"\nspecularity = 0.3\n" +
                                   "[run]\nt_max = 200\ntrajectories = 100\n");

@@ -116,8 +116,6 @@ int add_start(World&, const System&, const State&, std::uint64_t trajectory, int
 int add_start(World&, const Sampler&, std::uint64_t trajectory, int particle);
 /// Draws and adds all particles of a trajectory.
 void add_starts(World&, const Sampler&, std::uint64_t trajectory);
-/// As draw_all() gave them.
-void add_starts(World&, const Sampler&, const std::vector<State>&, std::uint64_t trajectory);
 /// How many trajectories start differently where starts are listed (point, list, birkhoff): later
 /// ones repeat them. 0 where starts are drawn.
 std::uint64_t listed_trajectories(const System&);

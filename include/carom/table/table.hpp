@@ -33,6 +33,9 @@ struct Wall {
   double specularity = 1.0;
   /// Mirrored at a normal that is turned by a random angle, uniform from -roughness to roughness.
   double roughness = 0.0;
+  /// As an energy: where it is not 0, particles leave as those of a gas that is so hot, with another
+  /// speed than they came with.
+  double temperature = 0.0;
   /// The same piece of curve seen from the other side, of a wall between two regions; -1: none.
   int twin = -1;
   std::vector<int> holes;  ///< indices into Table::holes, ordered by parameter
@@ -89,6 +92,8 @@ Table seen_from(const Table&, int region);
 
 /// Is what happens at a wall random?
 bool scatters(const Table&);
+/// Do walls change the speeds of particles?
+bool is_thermal(const Table&);
 /// Throws InputError if they do, or if particles pass some. `what`: cannot be had with such walls.
 void refuse_all_but_mirrors(const Table&, const char* what);
 

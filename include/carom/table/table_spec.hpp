@@ -88,7 +88,8 @@ struct WallLawSpec {
   std::string wall;          ///< "" : all walls
   double specularity = 1.0;  ///< Wall::specularity
   double roughness = 0.0;    ///< Wall::roughness
-  Place wall_place;
+  double temperature = 0.0;  ///< Wall::temperature
+  Place place, wall_place;
 };
 
 /// A region as the system file gives it.

@@ -37,6 +37,10 @@ void refuse_impossible(const System& system) {
   }
   refuse_injections(system, "an ensemble that diffuses");
   refuse_quasi_random(system, "an ensemble that diffuses");
+  if (is_thermal(*system.table))
+    throw InputError(Place{"", 0, 0, "table.wall"},
+                     "walls change the speeds, and lengths of flights count one speed",
+                     "another law than \"thermal\"");
   const Dynamics& d = system.dynamics;
   if (system.run.free_paths && (d.everywhere || (d.forces && !d.forces->empty())))
     throw InputError(Place{"", 0, 0, "run.free_paths"},

@@ -235,7 +235,7 @@ class SingleRun {
     }
     if (integrated_)
       world_.watch_energy();
-    else
+    else if (!is_thermal(*system_.table))  // which keep no energy
       passed_on_->watch(&*free_);
   }
   /// Where the stored run began; none where that is not known, or not needed.

@@ -112,6 +112,9 @@ std::string table_text(const System& system, const TableMeasure& measured,
     if (wall.roughness > 0.0)
       text += fmt::format("  wall '{}' is rough: its normal is turned by up to {:.6g}\n", wall.name,
                           wall.roughness);
+  for (const Wall& wall : table.walls)
+    if (wall.temperature > 0.0)
+      text += fmt::format("  wall '{}' has the temperature {:.6g}\n", wall.name, wall.temperature);
   for (const Region& region : table.regions) {
     const std::string& inner = table.walls[static_cast<std::size_t>(region.first)].name;
     text += fmt::format("  region behind '{}': ", inner.substr(0, inner.rfind('.')));

@@ -21,6 +21,7 @@ FreeFlights::FreeFlights(const PieceTable& seen, const Table& inside, const Forc
   for (int r = 0; media_ && r < media_->size(); ++r)
     media_of_table_.push_back({HitFinder(media_->pieces_of(r)), nullptr});
   scattering_.any = scatters(seen.table);
+  scattering_.thermal = is_thermal(seen.table);
   const std::vector<Wall>& walls = seen.table.walls;
   for (std::size_t i = 0; i < walls.size(); ++i) {
     const Wall& w = walls[i];
@@ -48,11 +49,16 @@ void FreeFlights::check_speed(const Body& b) const {
     throw std::invalid_argument("the velocity's length is not the particle's speed");
 }
 
+void FreeFlights::set_speed(Body& b, double speed) {
+  b.particle.speed = speed;
+  b.shell = motion::energy_shell(speed);
+  b.flight.square_speed = speed * speed;
+}
+
 void FreeFlights::begin(Body& b) const {
-  b.shell = motion::energy_shell(b.particle.speed);
   b.flight = Flight();
   b.flight.omega = b.particle.omega;
-  b.flight.square_speed = b.particle.speed * b.particle.speed;
+  set_speed(b, b.particle.speed);
   const PieceTable& pieces = pieces_of(b.region);
   if (b.state.wall >= 0) {
     const int wall = b.state.wall - first_wall(b);
@@ -71,10 +77,8 @@ void FreeFlights::begin(Body& b) const {
 }
 
 void FreeFlights::begin_on_wall(Body& b, int wall, double u) const {
-  b.particle.speed = std::sqrt(dot(b.state.velocity, b.state.velocity));
-  b.shell = motion::energy_shell(b.particle.speed);
+  set_speed(b, std::sqrt(dot(b.state.velocity, b.state.velocity)));
   b.flight.omega = b.particle.omega;
-  b.flight.square_speed = b.particle.speed * b.particle.speed;
   pieces().begin_on_wall(b.flight, wall, u, b.state.position, b.state.velocity);
 }
 
@@ -94,15 +98,30 @@ bool FreeFlights::lets_pass(int index, const Body& b, int hole) const {
 
 /// By Lambert's law the sine of the angle to the normal is uniform (docs/physics/scattering.md).
 /// Where the velocity is not one into the domain, as at a corner, the next two numbers are tried.
-Vector FreeFlights::scattered(int index, const Body& b, const PieceTable::Landing& landing,
+Vector FreeFlights::scattered(int index, Body& b, const PieceTable::Landing& landing,
                               Vector mirrored) {
   const Wall& wall = pieces().table.walls[base::at(landing.wall)];
-  const bool rough = wall.roughness > 0.0;
-  if (!(wall.specularity < 1.0) && !rough) return mirrored;
+  const bool rough = wall.roughness > 0.0, thermal = wall.temperature > 0.0;
+  if (!(wall.specularity < 1.0) && !rough && !thermal) return mirrored;
   const RandomStream::Block words = words_of(index, b, Purpose::scattering);
-  if (!rough && RandomStream::uniform(words[0]) < wall.specularity) return mirrored;
   const Vector inward =
       (1.0 / std::sqrt(dot(landing.at.normal, landing.at.normal))) * landing.at.normal;
+  if (thermal) {
+    // The flux of a Maxwell distribution: v_n exp(-m v^2/2T).
+    const auto speed = [&](std::uint64_t word) {
+      const double u = 0.5 * (1.0 + RandomStream::symmetric(word));
+      return std::sqrt(-2.0 * wall.temperature / b.particle.mass * elementary::log(u));
+    };
+    const double turn = elementary::cos(3.141592653589793 * RandomStream::symmetric(words[2]));
+    const Vector after =
+        speed(words[0]) * inward + (turn * speed(words[1])) * geometry::right(inward);
+    if (pieces().inward(landing.wall, *landing.curve, landing.at.u, after, landing.at.normal,
+                        counts_) != Sign::positive)
+      return mirrored;
+    set_speed(b, std::sqrt(dot(after, after)));
+    return after;
+  }
+  if (!rough && RandomStream::uniform(words[0]) < wall.specularity) return mirrored;
   for (std::size_t i = 1; i < words.size(); ++i) {
     const double random = RandomStream::symmetric(words[i]);
     Vector velocity;

@@ -54,12 +54,15 @@ class FreeFlights {
 
   /// As World::scatter_by.
   void scatter_by(std::uint64_t seed, std::uint64_t trajectory, std::vector<int> numbers) {
-    scattering_ = {scattering_.any, seed, trajectory, std::move(numbers)};
+    scattering_ = {scattering_.any, scattering_.thermal, seed, trajectory, std::move(numbers)};
   }
 
   /// From now on a flight is not taken over an edge of its cell before it gets there: for bodies
   /// that meet others.
   void keep_to_cells() { over_edges_ = false; }
+
+  /// Do walls change speeds?
+  bool change_speeds() const { return scattering_.thermal; }
 
   const PieceTable& pieces() const { return finder_.pieces(); }
   DecisionCounts& counts() { return counts_; }
@@ -90,8 +93,9 @@ class FreeFlights {
   };
   InRegion place_in_region(geometry::Vector point);
   bool outside_contains(geometry::Vector point);
-  geometry::Vector scattered(int index, const Body& b, const PieceTable::Landing& landing,
+  geometry::Vector scattered(int index, Body& b, const PieceTable::Landing& landing,
                              geometry::Vector mirrored);
+  static void set_speed(Body& b, double speed);
   static void put_on_edge(Body& b, Time now, const PieceTable::Landing& landing);
   bool reflect(int index, Body& b, Time now, Observer& observer,
                const PieceTable::Landing& landing);
@@ -101,7 +105,7 @@ class FreeFlights {
   Bodies& bodies_;
   const ForceRegions& regions_;
   struct Scattering {
-    bool any = false;  ///< does a wall?
+    bool any = false, thermal = false;  ///< does a wall?
     std::uint64_t seed = 0, trajectory = 0;
     std::vector<int> numbers;  ///< of bodies; empty: their indices
   } scattering_;

@@ -16,9 +16,8 @@ using geometry::Vector;
 void FreeFlights::put_into(Body& b, int region) const {
   b.region = region;
   b.particle = in_region(media_->table(), b.outside, region);
-  b.shell = motion::energy_shell(b.particle.speed);
   b.flight.omega = b.particle.omega;
-  b.flight.square_speed = b.particle.speed * b.particle.speed;
+  set_speed(b, b.particle.speed);
 }
 
 void FreeFlights::enter(Body& b) {

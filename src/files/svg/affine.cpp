@@ -12,12 +12,12 @@ namespace {
 
 constexpr std::size_t most_bits = 8192;  // of a number of a transform after all that it is within
 
-struct Kind {
+struct Transform {
   const char* name;
   std::size_t least, most;  // numbers
 };
-constexpr Kind kinds[] = {{"matrix", 6, 6}, {"translate", 1, 2}, {"scale", 1, 2},
-                          {"rotate", 1, 3}, {"skewX", 1, 1},     {"skewY", 1, 1}};
+constexpr Transform kinds[] = {{"matrix", 6, 6}, {"translate", 1, 2}, {"scale", 1, 2},
+                               {"rotate", 1, 3}, {"skewX", 1, 1},     {"skewY", 1, 1}};
 
 elementary::SinCos sincos_of(const Rational& degrees) {
   return elementary::sincos(nearest(degrees) * 0.017453292519943295);
@@ -83,8 +83,8 @@ Affine transform_of(const XmlAttribute& attribute, const Locator& locator) {
   for (text.skip_spaces(); !text.at_end();) {
     const Place place = text.place();
     const std::string name(text.word());
-    const Kind* kind = nullptr;
-    for (const Kind& k : kinds)
+    const Transform* kind = nullptr;
+    for (const Transform& k : kinds)
       if (name == k.name) kind = &k;
     const std::string expected = "matrix, translate, scale, rotate, skewX or skewY";
     if (kind == nullptr) throw InputError(place, "unknown transform '" + name + "'", expected);

@@ -16,13 +16,6 @@ namespace {
 
 using namespace table::shapes;
 
-Value empty(Value::Kind kind, const Place& place) {
-  Value value;
-  value.kind = kind;
-  value.place = place;
-  return value;
-}
-
 Value value_of(const ExactNumber& number, const Place& place) {
   const std::string& text = number.text();
   const bool decimal = text.find_first_not_of("0123456789.-+e") == std::string::npos;
@@ -30,7 +23,7 @@ Value value_of(const ExactNumber& number, const Place& place) {
 }
 
 Value value_of(const ExactPoint& point, const Place& place) {
-  Value value = empty(Value::Kind::list, place);
+  Value value = empty_value(Value::Kind::list, place);
   value.items = {value_of(point.x, place), value_of(point.y, place)};
   return value;
 }
@@ -38,7 +31,7 @@ Value value_of(const ExactPoint& point, const Place& place) {
 Value value_of(const WrittenPiece& written, const std::string& name) {
   const PieceSpec& piece = written.piece;
   const Place& place = piece.place;
-  Value value = empty(Value::Kind::table, place), to = value_of(piece.to, place);
+  Value value = empty_value(Value::Kind::table, place), to = value_of(piece.to, place);
   switch (piece.kind) {
     case PieceSpec::Kind::line:
       value.set("line_to", std::move(to));
@@ -54,7 +47,7 @@ Value value_of(const WrittenPiece& written, const std::string& name) {
       value.set("ellipse_angle", value_of(piece.angle, place));
       break;
     case PieceSpec::Kind::bezier: {
-      Value points = empty(Value::Kind::list, place);
+      Value points = empty_value(Value::Kind::list, place);
       for (const ExactPoint& p : piece.control) points.items.push_back(value_of(p, place));
       points.items.push_back(std::move(to));
       value.set("bezier", std::move(points));
@@ -68,7 +61,7 @@ Value value_of(const WrittenPiece& written, const std::string& name) {
 /// The keys of a loop, or of an obstacle, which names its shape.
 Value value_of(const DrawnLoop& loop, bool obstacle) {
   const Place& place = loop.place;
-  Value value = empty(Value::Kind::table, place);
+  Value value = empty_value(Value::Kind::table, place);
   const auto shape = [&](const char* name) {
     if (obstacle) value.set("shape", text_value(name, place));
   };
@@ -86,7 +79,7 @@ Value value_of(const DrawnLoop& loop, bool obstacle) {
   } else {
     shape("path");
     value.set("start", value_of(std::get<WrittenPiece>(first.curve).from, place));
-    Value pieces = empty(Value::Kind::list, place);
+    Value pieces = empty_value(Value::Kind::list, place);
     for (const NamedCurve& piece : loop.chain)
       pieces.items.push_back(value_of(std::get<WrittenPiece>(piece.curve), piece.name));
     value.set("pieces", std::move(pieces));
@@ -138,8 +131,8 @@ void take_drawing(Value& table) {
   if (const auto& first = loops[outer].chain.front().curve;
       std::holds_alternative<WrittenPiece>(first))
     loops[outer].chain = turned(std::move(loops[outer].chain), false);
-  Value loop = empty(Value::Kind::list, path.place),
-        obstacles = empty(Value::Kind::list, path.place);
+  Value loop = empty_value(Value::Kind::list, path.place),
+        obstacles = empty_value(Value::Kind::list, path.place);
   loop.items.push_back(value_of(loops[outer], false));
   for (std::size_t k = 0; k < loops.size(); ++k)
     if (k != outer) obstacles.items.push_back(value_of(loops[k], true));

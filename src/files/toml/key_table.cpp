@@ -122,11 +122,13 @@ const std::vector<KeyDescription>& key_table() {
 
       {"table.wall", "", "law", "string", "",
        "specular; diffuse: by Lambert's law, with a uniform sine of the angle to the normal; "
-       "mixed; or rough"},
+       "mixed; rough; or thermal: with the velocities of a gas that leaves the wall"},
       {"table.wall", "mixed", "specularity", "number", "",
        "fraction of the hits that are mirrored; the others are diffuse"},
       {"table.wall", "rough", "angle", "angle", "",
        "the normal is turned by a random angle, uniform from -angle to angle"},
+      {"table.wall", "thermal", "temperature", "number", "",
+       "temperature as an energy: the mean kinetic energy of a particle of the gas"},
       {"table.wall", "", "wall", "string", "", "name of the wall; all walls if not given"},
 
       {"table.region", "", "wall", "string", "", "a wall of the obstacle that particles pass"},

@@ -48,13 +48,6 @@ std::vector<Step> steps_of(const std::string& path) {
   return steps;
 }
 
-Value empty(Value::Kind kind, const Place& place) {
-  Value value;
-  value.kind = kind;
-  value.place = place;
-  return value;
-}
-
 // Removes the key of the file that the new key excludes.
 void drop_rival(Value& section, const std::string& key) {
   static const std::pair<const char*, const char*> rivals[] = {{"B", "larmor_radius"},
@@ -75,7 +68,7 @@ Value pair_of(const std::string& text, const Place& place, char between = ',',
   if (middle == std::string::npos || text.find(between, middle + 1) != std::string::npos) {
     throw InputError(place, "'" + text + "' is not a pair of numbers", expected);
   }
-  Value value = empty(Value::Kind::list, place);
+  Value value = empty_value(Value::Kind::list, place);
   value.items = {parse_value(text.substr(0, middle), place),
                  parse_value(text.substr(middle + 1), place)};
   return value;
@@ -95,7 +88,7 @@ void place_start(const SystemOverrides& overrides, Value& root) {
   Value* old = root.find("initial");
   const Value* kind = old == nullptr ? nullptr : old->find("kind");
   Value initial =
-      kind != nullptr && kind->text == "point" ? *old : empty(Value::Kind::table, place);
+      kind != nullptr && kind->text == "point" ? *old : empty_value(Value::Kind::table, place);
   const auto refuse_typed = [&](const char* key, const char* beside) {
     const Value* typed = old == nullptr ? nullptr : old->find(key);
     if (typed != nullptr && typed->place.file == command_line_file)
@@ -161,7 +154,7 @@ void set_path(Value& root, const std::string& path, Value value) {
     Value* next = at->find(step.key);
     if (next == nullptr) {
       const Value::Kind kind = step.indices.empty() ? Value::Kind::table : Value::Kind::list;
-      next = &at->set(step.key, empty(kind, made));
+      next = &at->set(step.key, empty_value(kind, made));
     }
     for (const std::size_t index : step.indices) {
       if (next->kind != Value::Kind::list) {
@@ -175,7 +168,7 @@ void set_path(Value& root, const std::string& path, Value value) {
                 : "an index below " + std::to_string(next->items.size()) + ", or that to append");
       }
       made.key += "[" + std::to_string(index) + "]";
-      if (index == next->items.size()) next->items.push_back(empty(Value::Kind::table, made));
+      if (index == next->items.size()) next->items.push_back(empty_value(Value::Kind::table, made));
       next = &next->items[index];
     }
     if (last) {

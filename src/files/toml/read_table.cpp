@@ -43,13 +43,14 @@ HoleSpec read_hole(Value& value, std::size_t index) {
 
 WallLawSpec read_law(Value& value) {
   const std::string law =
-      read_kind(value, "table.wall", "law", {"specular", "diffuse", "mixed", "rough"});
+      read_kind(value, "table.wall", "law", {"specular", "diffuse", "mixed", "rough", "thermal"});
   TomlSection section(value, "table.wall", law);
   section.check_keys();
   WallLawSpec spec;
-  spec.specularity = law == "specular" || law == "rough" ? 1.0
-                     : law == "mixed"                    ? share_of(section.get("specularity"))
-                                                         : 0.0;
+  spec.place = value.place;
+  if (law == "diffuse") spec.specularity = 0.0;
+  if (law == "mixed") spec.specularity = share_of(section.get("specularity"));
+  if (law == "thermal") spec.temperature = as_positive(section.get("temperature"));
   if (law == "rough") {
     const Value& angle = section.get("angle");
     spec.roughness = as_angle(angle).to_double();

@@ -121,25 +121,28 @@ std::string name_of(Value::Kind kind) {
   return "a date or time";
 }
 
-Value number_value(std::string text, Place place) {
+Value empty_value(Value::Kind kind, const Place& place) {
   Value value;
-  value.kind = Value::Kind::number;
+  value.kind = kind;
+  value.place = place;
+  return value;
+}
+
+Value number_value(std::string text, const Place& place) {
+  Value value = empty_value(Value::Kind::number, place);
   value.text = std::move(text);
-  value.place = std::move(place);
   return value;
 }
 
-Value text_value(std::string text, Place place) {
-  Value value = number_value(std::move(text), std::move(place));
-  value.kind = Value::Kind::text;
+Value text_value(std::string text, const Place& place) {
+  Value value = empty_value(Value::Kind::text, place);
+  value.text = std::move(text);
   return value;
 }
 
-Value flag_value(bool flag, Place place) {
-  Value value;
-  value.kind = Value::Kind::boolean;
+Value flag_value(bool flag, const Place& place) {
+  Value value = empty_value(Value::Kind::boolean, place);
   value.flag = flag;
-  value.place = std::move(place);
   return value;
 }
 

@@ -35,9 +35,11 @@ struct Entry {
 /// "a number", "a list" …
 std::string name_of(Value::Kind kind);
 
-Value number_value(std::string text, Place place);
-Value text_value(std::string text, Place place);
-Value flag_value(bool flag, Place place);
+/// Without content yet.
+Value empty_value(Value::Kind kind, const Place& place);
+Value number_value(std::string text, const Place& place);
+Value text_value(std::string text, const Place& place);
+Value flag_value(bool flag, const Place& place);
 
 /// Parses a TOML document; syntax errors are an InputError with line and column.
 Value parse_document(std::string_view toml, const std::string& file);
