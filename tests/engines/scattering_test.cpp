@@ -228,18 +228,20 @@ TEST(Scattering, OfAHoleLetsItsSharePass) {
 }
 
 TEST(Scattering, GivesOneDigestHoweverTheWorkIsShared) {
-  const std::string text =
-      stadium + walls("diffuse") + "[[table.hole]]\nwall = \"bottom\"\ncenter = 0.5\nwidth = 0.3\n";
-  const System system = system_of(text + "[run]\nt_max = 50\ntrajectories = 300\n");
-  const auto digest = [&](int threads, std::uint64_t block) {
+  const auto digest = [&](const std::string& law, int threads, std::uint64_t block) {
     EscapeOptions how;
     how.threads = threads;
     how.block = block;
-    return run_escape(system, how).digest;
+    return run_escape(system_of(stadium + law +
+                                "[[table.hole]]\nwall = \"bottom\"\ncenter = 0.5\nwidth = 0.3\n"
+                                "[run]\nt_max = 50\ntrajectories = 300\n"),
+                      how)
+        .digest;
   };
-  const auto one = digest(1, 64);
-  EXPECT_EQ(digest(2, 64), one);
-  EXPECT_EQ(digest(2, 7), one);
+  const auto one = digest(walls("diffuse"), 1, 64);
+  EXPECT_EQ(digest(walls("diffuse"), 2, 64), one);
+  EXPECT_EQ(digest(walls("diffuse"), 2, 7), one);
+  EXPECT_EQ(digest(thermal(0.5), 1, 64), digest(thermal(0.5), 2, 7));
   System mirrors = system_of(stadium +
                              "[[table.hole]]\nwall = \"bottom\"\ncenter = 0.5\n"
                              "width = 0.3\n[run]\nt_max = 50\ntrajectories = 300\n");
