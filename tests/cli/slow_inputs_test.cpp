@@ -72,7 +72,7 @@ TEST(SlowInputs, SayTheLowestEnergySeenAndTheOneAskedFor) {
 TEST(SlowInputs, EndByASignalBeforeThereIsAnArchive) {
   const Shell shell;
   // No arrangement is found, and many draws are needed to know it.
-  write(shell, "[table]\nshape = \"random-discs\"\nside = 100\nradius = 0.4\ncount = 12500\n");
+  write(shell, "[table]\nshape = \"random-discs\"\nside = 100\nradius = 0.4\ncount = 11000\n");
   EXPECT_EQ(status_when_terminated(shell, "run ./slow.toml -o a.h5", "sleep 0.5"), 128 + 15);
   EXPECT_FALSE(shell.exists("a.h5"));
 }
