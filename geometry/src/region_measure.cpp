@@ -5,9 +5,17 @@
 
 namespace carom::geometry {
 
+namespace {
+ExactPoint exactly(Vector point) { return {Dyadic(point.x), Dyadic(point.y), Dyadic(1)}; }
+}  // namespace
+
+bool passes_through(const Curve& curve, Vector point) {
+  return ExactLoop({{"", curve}}, DyadicVector{}).on_boundary(exactly(point));
+}
+
 int locate(const Loop& loop, Vector point) {
   const ExactLoop exact_loop(loop, DyadicVector{});
-  const ExactPoint p{Dyadic(point.x), Dyadic(point.y), Dyadic(1)};
+  const ExactPoint p = exactly(point);
   if (exact_loop.on_boundary(p)) return 0;
   return exact_loop.inside(p) == exact_loop.counterclockwise() ? 1 : -1;
 }

@@ -9,18 +9,10 @@ namespace carom::events {
 
 using geometry::Vector;
 
-WallTouch::WallTouch(const Table& table, int grid_from)
-    : loop_of_(table.walls.size(), table.walls.size()) {
-  for (const Wall& wall : table.walls) frames_.push_back(geometry::frame_of(wall.curve));
-  for (std::size_t first = 0; first < table.walls.size(); ++first) {
-    if (loop_of_[first] < loops_.size()) continue;
-    geometry::Loop loop;
-    for (std::size_t wall = first; loop_of_[wall] >= table.walls.size();
-         wall = static_cast<std::size_t>(table.walls[wall].next)) {
-      loop_of_[wall] = loops_.size();
-      loop.push_back({table.walls[wall].name, table.walls[wall].curve});
-    }
-    loops_.push_back(std::move(loop));
+WallTouch::WallTouch(const Table& table, int grid_from) {
+  for (const Wall& wall : table.walls) {
+    curves_.push_back(wall.curve);
+    frames_.push_back(geometry::frame_of(wall.curve));
   }
   if (table.walls.empty() || static_cast<int>(table.walls.size()) < grid_from) return;
   std::vector<geometry::Piece> pieces;
@@ -38,7 +30,7 @@ bool WallTouch::on(std::size_t i, Vector point) const {
       std::max({std::abs(point.x), std::abs(point.y), frames_[i].major, frames_[i].minor,
                 std::abs(frames_[i].origin.x), std::abs(frames_[i].origin.y)});
   const double distance = std::max(std::abs(point.x - image.x), std::abs(point.y - image.y));
-  return !(distance > 0x1p-40 * size) && geometry::locate(loops_[loop_of_[i]], point) == 0;
+  return !(distance > 0x1p-40 * size) && geometry::passes_through(curves_[i], point);
 }
 
 bool WallTouch::on_wall(Vector point) const {

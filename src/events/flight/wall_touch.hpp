@@ -21,9 +21,8 @@ class WallTouch {
  private:
   bool on(std::size_t wall, geometry::Vector point) const;
 
+  std::vector<geometry::Curve> curves_;
   std::vector<geometry::CurveFrame> frames_;
-  std::vector<geometry::Loop> loops_;
-  std::vector<std::size_t> loop_of_;  ///< index of each wall's loop
   std::unique_ptr<const WallGrid> grid_;
 };
 

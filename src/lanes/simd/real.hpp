@@ -95,7 +95,7 @@ struct Real {
   }
   // As a compiler's operation, which products take in.
   CAROM_INLINE friend Real operator-(const Real& a) {
-#if HWY_ARCH_X86
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
     return hn::Vec<Doubles>{-a.lanes.raw};
 #else
     return hn::Neg(a.lanes);

@@ -55,6 +55,8 @@ std::vector<RegionFault> check_region(const std::vector<Loop>& loops, RegionKind
 /// Exact point location with respect to one loop: positive inside (or on the left), negative
 /// outside, zero on it. The loop must be closed and simple.
 int locate(const Loop& loop, Vector point);
+/// Exact: is the point one of the curve?
+bool passes_through(const Curve&, Vector point);
 
 /// Signed area and total length, rounded: obstacles count negative.
 double area(const std::vector<Loop>& loops);
