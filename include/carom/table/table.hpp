@@ -33,8 +33,8 @@ struct Wall {
   double specularity = 1.0;
   /// Mirrored at a normal that is turned by a random angle, uniform from -roughness to roughness.
   double roughness = 0.0;
-  /// As an energy: where it is not 0, particles leave as those of a gas that is so hot, with another
-  /// speed than they came with.
+  /// As an energy: where it is not 0, particles leave as those of a gas that is so hot, with
+  /// another speed than they came with.
   double temperature = 0.0;
   /// The same piece of curve seen from the other side, of a wall between two regions; -1: none.
   int twin = -1;
