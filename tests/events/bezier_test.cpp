@@ -313,6 +313,29 @@ TEST(Beziers, NormalsAndCurvaturesAreAsCloseAsIsSaid) {
   }
 }
 
+// The bound is that of the middle of a piece, where (u - 1/2)^3 is not small: it is nearly reached.
+TEST(Beziers, PiecesAreAsFarFromTheirCurveAsIsSaid) {
+  const std::pair<const char*, double (*)(double)> curves[] = {
+      {"1 + 0.5*cos(phi)", [](double phi) { return 1.0 + 0.5 * std::cos(phi); }},
+      {"1 + 0.2*sin(5*phi)", [](double phi) { return 1.0 + 0.2 * std::sin(5.0 * phi); }},
+      {"exp(0.5*cos(2*phi))", [](double phi) { return std::exp(0.5 * std::cos(2.0 * phi)); }},
+      {"1/(2 + sin(phi))", [](double phi) { return 1.0 / (2.0 + std::sin(phi)); }}};
+  for (const auto& [text, radius] : curves) {
+    const Table table = polar(text);
+    double worst = 0.0;
+    for (const Wall& wall : table.walls) {
+      const Vector a = start_point(wall.curve), b = end_point(wall.curve);
+      const double from = std::atan2(a.y, a.x), turn = std::atan2(cross(a, b), dot(a, b)),
+                   middle = from + 0.5 * turn;
+      const Vector at = point_at(geometry::frame_of(wall.curve), 0.5),
+                   d = at - radius(middle) * Vector{std::cos(middle), std::sin(middle)};
+      worst = std::max(worst, std::sqrt(dot(d, d)));
+    }
+    EXPECT_LE(worst, table.curve_errors.distance + 6e-16) << text;
+    EXPECT_GE(worst, 0.2 * table.curve_errors.distance) << text;
+  }
+}
+
 TEST(Beziers, ConicsWrittenAsCurvesHaveTheirOrbits) {
   const Table circle = build_table(*carom::circle(1).spec),
               ellipse = build_table(*carom::ellipse(2, 1).spec);
