@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -30,6 +31,8 @@ constexpr int most_hits = 1000;
 constexpr std::size_t most_alone = 100;
 /// Evaluations of pair forces that all trial runs of one step may cost.
 constexpr double affordable = 2e7;
+/// Evaluations of forces of all steps that are tried, after which none shorter is: some seconds.
+constexpr std::uint64_t most_evaluations = 5'000'000;
 /// Meshes of forces that are bounded for all steps together; no step needs as many, but a force of
 /// thousands of narrow parts may.
 constexpr int most_meshes = 50000;
@@ -64,6 +67,7 @@ class TrialRuns {
   /// Are steps of h resolved until a time?
   bool resolve(double h, double until) { return follow(h, until).has_value(); }
   double highest_energy() const { return energy_; }
+  std::uint64_t evaluations() const { return evaluations_; }
   const std::string& report() const { return report_; }
 
  private:
@@ -80,6 +84,7 @@ class TrialRuns {
       if (starts_.size() == trajectory) starts_.push_back(sampler_.draw_all(world, trajectory));
       for (std::size_t p = 0; p < starts_[trajectory].size(); p += stride_)
         add_start(world, system_, starts_[trajectory][p], trajectory, static_cast<int>(p));
+      const std::uint64_t before = world.step_counts().force_evaluations;
       const Energy start = energy(world, Time(0.0));
       if (k == 0) energy_ = start.total();
       energy_ = std::max(energy_, start.total());
@@ -102,6 +107,7 @@ class TrialRuns {
         kinetic = std::max(kinetic, now.kinetic);
         change = std::max(change, std::fabs(now.total() - start.total()));
       }
+      evaluations_ += world.step_counts().force_evaluations - before;
       if (change > 0.0) worst = std::max(worst, change / kinetic);
     }
     return worst;
@@ -126,6 +132,7 @@ class TrialRuns {
   std::size_t stride_ = 1;  ///< between the particles that fly, of those that do not interact
   int count_ = 1, length_ = 1;
   double energy_ = 0.0;
+  std::uint64_t evaluations_ = 0;
   std::string report_;
 };
 
@@ -194,7 +201,7 @@ ChosenStep choose_step(const System& system, const std::function<bool()>& stoppe
     if (!error) continue;
     if (!(resolved > 0.0)) resolved = h;
     if (*error < best.energy_error) best = {h, *error};
-    if (*error <= wanted_energy_error) break;
+    if (*error <= wanted_energy_error || trials.evaluations() > most_evaluations) break;
   }
   if (!(best.step > 0.0))
     throw InputError(Place{{}, 0, 0, "integrator.step"},
