@@ -128,8 +128,11 @@ bool apart_but_at_joint(const Part& first, const Part& second) {
   const auto unit = [](Vector v) { return (1.0 / std::sqrt(dot(v, v))) * v; };
   const Vector comes = unit(first.rounded[n - 1] - first.rounded[before - 1]),
                goes = unit(second.rounded[after] - second.rounded[0]);
-  // Across the way through a joint; along it in a cusp.
-  return on_two_sides(first, second, exact(left(comes + goes))) ||
+  // Across the way through a joint; along it in a cusp. Far from the origin parts are shorter than
+  // the rounding of their places.
+  const Vector across = left(comes + goes);
+  return (std::isfinite(across.x) && std::isfinite(across.y) &&
+          on_two_sides(first, second, exact(across))) ||
          on_two_sides(first, second, way(second.control[0], second.control[after]));
 }
 

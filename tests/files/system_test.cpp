@@ -96,6 +96,15 @@ TEST(System, EveryKindOfStartIsRead) {
   EXPECT_EQ(line.angle, 0.5);
 }
 
+// Their pieces are shorter than the rounding of their places.
+TEST(System, SmallCurvesFarAwayAreRefused) {
+  const std::string text =
+      "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1e13\n[[table.obstacle]]\nshape = "
+      "\"polar\"\nradius = \"0.1 + 0.02*cos(3*phi)\"\ncenter = ";
+  EXPECT_NO_THROW(read_system(text + "[0.5, 1]\n", "near"));
+  EXPECT_THROW(read_system(text + "[0.5, 1e12]\n", "far"), InputError);
+}
+
 TEST(System, BirkhoffStartsPairListsAndCrossGrids) {
   const auto initial = [](const std::string& text) {
     return read(square("[initial]\nkind = \"birkhoff\"\nwall = \"right\"\n" + text)).initial;
