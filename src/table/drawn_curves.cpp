@@ -27,7 +27,7 @@ constexpr double two_pi = 6.283185307179586;
 using Formula = TypedExpression;
 using forces::complex_box::Range;
 
-/// At most, with some room for its own rounding.
+/// An upper bound: the factor is above what its three roundings can change.
 double length_of(Range x, Range y) {
   const double a = largest(x), b = largest(y);
   return 1.0001 * std::sqrt(a * a + b * b);

@@ -120,10 +120,11 @@ Shape random_discs(const TableSpec& spec) {
                      "the discs would fill more of the square than the densest packing does",
                      "fewer or smaller discs: placed one after the other they fill about half of "
                      "the area");
-  // Placed one after the other, discs fill .5471 (Hinrichsen, Feder, Jossang 1986): of many by no
-  // more than a few .01/sqrt(count).
+  // Placed one after the other, discs fill .547 of a torus at most (Hinrichsen, Feder, Jossang
+  // 1986). With these draws 16 arrangements of 1000 filled .541 with a deviation of .005, which
+  // falls as 1/sqrt(count): for 10 000 .56 is more than ten deviations away.
   if (const double discs = static_cast<double>(count), share = radius / side;
-      discs >= 1000 && 3.1415 * discs * share * share > 0.56)
+      discs >= 10000 && 3.1415 * discs * share * share > 0.56)
     throw InputError(count_number.place(),
                      "the discs would fill more of the square than discs placed one after the "
                      "other can",
