@@ -11,6 +11,7 @@
 #include "carom/base/elementary.hpp"
 #include "carom/base/whole_number.hpp"
 #include "carom/geometry/curve_frame.hpp"
+#include "carom/geometry/prepared_curve.hpp"
 #include "forces/formula_series.hpp"
 #include "table/closed_curves.hpp"
 #include "table/numbers.hpp"
@@ -222,12 +223,28 @@ std::optional<ExactNumber> given(const TableSpec& spec, const char* key) {
 
 ClosedCurve drawn_polar(const WrittenFormula& radius, Vector centre, const Layout& layout) {
   ClosedCurve curve = Drawing(polar_with(radius)).walls(layout);
+  if (centre == Vector{}) return curve;
+  CurveErrors moved;
   for (NamedCurve& wall : curve.chain) {
     auto& piece = std::get<Bezier>(wall.curve);
     piece.from = piece.from + centre;
     piece.to = piece.to + centre;
     for (Vector& control : piece.inner) control = control + centre;
+    // Rounding moves control points by r at most, and the derivatives of a quintic by 10 r and 80
+    // r: no more than errors_of() takes for a distance of 3.4 r.
+    double farthest = 0.0;
+    for (int i = 0; i <= piece.degree; ++i)
+      farthest = std::max({farthest, std::fabs(piece.control(i).x), std::fabs(piece.control(i).y)});
+    try {
+      include(moved, errors_of(piece, 3.4 * 1.415 * geometry::unit_roundoff * farthest));
+    } catch (const std::invalid_argument&) {
+      throw InputError(radius.place, "the curve is too small for its distance from the origin",
+                       "a larger curve, or one nearer to the origin");
+    }
   }
+  curve.errors.distance += moved.distance;
+  curve.errors.normal += moved.normal;
+  curve.errors.curvature += moved.curvature;
   return curve;
 }
 

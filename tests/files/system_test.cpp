@@ -101,7 +101,11 @@ TEST(System, SmallCurvesFarAwayAreRefused) {
   const std::string text =
       "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1e13\n[[table.obstacle]]\nshape = "
       "\"polar\"\nradius = \"0.1 + 0.02*cos(3*phi)\"\ncenter = ";
-  EXPECT_NO_THROW(read_system(text + "[0.5, 1]\n", "near"));
+  const auto distance = [&](const std::string& centre) {
+    return read_system(text + centre + "\n", "near").system.table->curve_errors.distance;
+  };
+  EXPECT_LT(distance("[0.5, 1]"), 3e-15);
+  EXPECT_GT(distance("[0.5, 1e3]"), 1e-13);  // the rounding of places counts
   EXPECT_THROW(read_system(text + "[0.5, 1e12]\n", "far"), InputError);
 }
 
