@@ -36,15 +36,15 @@ const Table& without_misplaced(const Table& table) {
   return table;
 }
 
-/// Steps and contacts know mirrors alone, and segments and conics.
+/// Steps and contacts know mirrors alone; contacts, segments and conics.
 const Dynamics& without_other_walls(const Table& table, const Dynamics& dynamics) {
   if (!dynamics.everywhere && !has_discs(dynamics) &&
       (!dynamics.forces || dynamics.forces->empty()))
     return dynamics;
   refuse_all_but_mirrors(table, "forces, steps or hard discs");
-  if (table::bezier_wall(table) != nullptr)
-    throw InputError(Place{}, "forces beside Bézier curves are not there yet",
-                     "walls of segments, circles and ellipses, or no forces");
+  if (has_discs(dynamics) && table::bezier_wall(table) != nullptr)
+    throw InputError(Place{}, "hard discs beside Bézier curves",
+                     "walls of segments, circles and ellipses, or point particles");
   return dynamics;
 }
 

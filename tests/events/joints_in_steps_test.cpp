@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "carom/events/world.hpp"
+#include "carom/table/table_spec.hpp"
 #include "random_tables.hpp"
 #include "recorder.hpp"
 
@@ -29,7 +30,7 @@ Vector tangent(const geometry::Curve& curve, bool at_end) {
   return unit(-1.0 * left(geometry::normal_at(curve, u)));
 }
 
-enum class Kind { random, many_sides, wedge, obstacle, turned_wedge, flat_arc };
+enum class Kind { random, many_sides, wedge, obstacle, turned_wedge, flat_arc, curves, lens };
 
 /// `shape`: of random tables.
 Table table_of(Kind kind, Shape shape, double size, Vector at, Dice& dice) {
@@ -64,6 +65,26 @@ Table table_of(Kind kind, Shape shape, double size, Vector at, Dice& dice) {
       return tests::loop(
           {geometry::Segment{{0.0, 0.0}, side}, geometry::Segment{side, far},
            geometry::CircularArc{far, {0.0, 0.0}, outwards ? offset : -offset, outwards}});
+    }
+    case Kind::curves: {
+      TableSpec spec;
+      spec.shape = "spline";
+      const int n = dice.whole(4, 9);
+      for (int k = 0; k < n; ++k) {
+        const Vector x =
+            at + turned({size * dice.between(0.7, 1.0), 0.0}, 6.283185307179586 * k / n);
+        spec.points["points"].push_back({ExactNumber(x.x), ExactNumber(x.y)});
+      }
+      return build_table(spec);
+    }
+    case Kind::lens: {  // two corners between curves
+      const Vector a = at - Vector{size, 0.0}, b = at + Vector{size, 0.0};
+      const auto up = [&](double x) { return at + Vector{x * size, size * dice.spread(0.1, 1.0)}; };
+      const auto down = [&](double x) {
+        return at - Vector{x * size, size * dice.spread(0.1, 1.0)};
+      };
+      return tests::loop({geometry::Bezier{b, a, {{up(0.4), up(-0.4)}}, 3},
+                          geometry::Bezier{a, b, {{down(0.4), down(0.0), down(-0.4)}}, 4}});
     }
     case Kind::obstacle:
       break;
@@ -139,7 +160,8 @@ TEST(JointsInSteps, AreWatertight) {
       {Kind::random, Shape::stadium},       {Kind::random, Shape::mushroom},
       {Kind::random, Shape::elliptic_arcs}, {Kind::many_sides, Shape::polygon},
       {Kind::wedge, Shape::polygon},        {Kind::obstacle, Shape::polygon},
-      {Kind::turned_wedge, Shape::polygon}, {Kind::flat_arc, Shape::polygon}};
+      {Kind::turned_wedge, Shape::polygon}, {Kind::flat_arc, Shape::polygon},
+      {Kind::curves, Shape::polygon},       {Kind::lens, Shape::polygon}};
   for (const auto& [kind, shape] : tables)
     for (const ForceSpec* forces : {&none, &pull}) {
       Count count;

@@ -8,6 +8,7 @@
 
 #include "carom/base/random.hpp"
 #include "carom/geometry/curve.hpp"
+#include "events/step/barriers_of.hpp"
 
 namespace carom {
 
@@ -46,7 +47,8 @@ std::vector<Curve> walls() {
           geometry::Circle{{0.3, -0.2}, 0.8, false},
           geometry::CircularArc{{1.0, 0.0}, {-1.0, 0.5}, 0.3, true},
           geometry::CircularArc{{1.0, 0.0}, {-1.0, 0.5}, 0.3, false},
-          geometry::Ellipse{{0.1, 0.2}, {1.5, 0.4}, 0.5, true}};
+          geometry::Ellipse{{0.1, 0.2}, {1.5, 0.4}, 0.5, true},
+          geometry::Bezier{{-1.0, -1.0}, {1.0, 1.0}, {{{1.0, -1.5}, {-0.5, 1.5}}}, 3}};
 }
 
 TEST(StepHull, KeepsNoPathOffAWallThatItCrosses) {
@@ -54,20 +56,20 @@ TEST(StepHull, KeepsNoPathOffAWallThatItCrosses) {
   RandomStream random(7, Purpose::initial_state, 0);
   int crossings = 0, off = 0, near = 0;
   for (const Curve& wall : walls()) {
-    const Barrier<double> b = barrier_of<double>(wall, Vector{0.25, -0.125});
-    for (int i = 0; i < 4000; ++i) {
-      const StepHull<double> hull = hull_of(random_step(random));
-      bool crosses = false;
-      for (int k = 0; k < parts && !crosses; ++k) {
-        const Vector p = point_of(hull, double(k) / parts),
-                     q = point_of(hull, double(k + 1) / parts);
-        crosses = b.gap(p) > 0.0 && b.gap(q) < 0.0 && b.covers(p) && b.covers(q);
+    for (const Barrier<double>& b : barriers_of<double>(wall, Vector{0.25, -0.125}))
+      for (int i = 0; i < 4000; ++i) {
+        const StepHull<double> hull = hull_of(random_step(random));
+        bool crosses = false;
+        for (int k = 0; k < parts && !crosses; ++k) {
+          const Vector p = point_of(hull, double(k) / parts),
+                       q = point_of(hull, double(k + 1) / parts);
+          crosses = b.gap(p) > 0.0 && b.gap(q) < 0.0 && b.covers(p) && b.covers(q);
+        }
+        const bool stays = stays_off(b, hull);
+        EXPECT_FALSE(crosses && stays) << wall.index() << ' ' << i;
+        crossings += crosses;
+        (stays ? off : near) += 1;
       }
-      const bool stays = stays_off(b, hull);
-      EXPECT_FALSE(crosses && stays) << wall.index() << ' ' << i;
-      crossings += crosses;
-      (stays ? off : near) += 1;
-    }
   }
   EXPECT_GT(crossings, 200);
   // Nearly all that miss a wall are told so.
@@ -77,7 +79,7 @@ TEST(StepHull, KeepsNoPathOffAWallThatItCrosses) {
 // A long wall's line says nothing: the piece is asked, too.
 TEST(StepHull, AsksThePieceAsWellAsItsCurve) {
   const Barrier<double> line =
-      barrier_of<double>(geometry::Segment{{0.0, 0.0}, {1.0, 0.0}}, Vector{});
+      barriers_of<double>(geometry::Segment{{0.0, 0.0}, {1.0, 0.0}}, Vector{}).front();
   const Step across{{3.0, 0.1}, {0.0, -0.2}, {3.0, -0.1}, {0.0, -0.2}};
   EXPECT_TRUE(stays_off(line, hull_of(across)));
   Step through = across;

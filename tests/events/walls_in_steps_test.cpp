@@ -10,11 +10,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "carom/integrators/scheme.hpp"
+#include "events/step/barriers_of.hpp"
 #include "events/step/crossing_in_step.hpp"
 #include "integrators/steppers.hpp"
+#include "tables_by_hand.hpp"
 
 namespace carom {
 
@@ -46,15 +49,28 @@ struct HenonHeiles : ForceLaw<Real> {
 };
 
 std::vector<Barrier<Real>> circular_wall() {
-  return {barrier_of<Real>(geometry::Circle{{0.0, 0.0}, 0.5, true}, Vector{})};
+  return barriers_of<Real>(geometry::Circle{{0.0, 0.0}, 0.5, true}, Vector{});
+}
+std::vector<Barrier<Real>> walls_of(const Table& table) {
+  std::vector<Barrier<Real>> walls;
+  for (int i = 0; i < static_cast<int>(table.walls.size()); ++i)
+    for (Barrier<Real>& b : barriers_of<Real>(table, i, Vector{})) walls.push_back(std::move(b));
+  return walls;
 }
 std::vector<Barrier<Real>> rectangular_wall() {
-  const geometry::Vector corners[] = {{-0.5, -0.375}, {0.5, -0.375}, {0.5, 0.375}, {-0.5, 0.375}};
-  std::vector<Barrier<Real>> walls;
-  for (int i = 0; i < 4; ++i)
-    walls.push_back(
-        barrier_of<Real>(geometry::Segment{corners[i], corners[(i + 1) % 4]}, Vector{}));
-  return walls;
+  return walls_of(tests::polygon({{-0.5, -0.375}, {0.5, -0.375}, {0.5, 0.375}, {-0.5, 0.375}}));
+}
+/// Nearly a circle: in others orbits are chaotic.
+std::vector<Barrier<Real>> curved_wall() {
+  const double r = 0.5, k = 0.276142375;
+  const geometry::Vector corners[] = {{r, 0.0}, {0.0, r}, {-r, 0.0}, {0.0, -r}};
+  std::vector<geometry::Curve> quarters;
+  for (int i = 0; i < 4; ++i) {
+    const geometry::Vector from = corners[i], to = corners[(i + 1) % 4];
+    quarters.push_back(
+        geometry::Bezier{from, to, {{from + (k / r) * left(from), to - (k / r) * left(to)}}, 3});
+  }
+  return walls_of(tests::loop(quarters));
 }
 
 struct Orbit {
@@ -102,20 +118,27 @@ double error_of(const Phase<Real>& a, const Phase<Real>& b) {
 struct Setting {
   const char* name;
   bool harmonic;
-  bool circle;
+  std::vector<Barrier<Real>> (*walls)();
   double omega;
   Vector position, velocity;  ///< starts whose orbits are not chaotic: else no step is small enough
 };
 
 const Setting settings[] = {
-    {"well in a circle", true, true, 0.0, {0.0, 0.125}, {0.75, -0.25}},
-    {"well in a circle, with B", true, true, 1.0, {0.125, 0.0625}, {0.75, 0.5}},
-    {"well in a rectangle", true, false, 0.0, {0.125, 0.0625}, {0.75, 0.5}},
-    {"well in a rectangle, with B", true, false, 1.0, {0.125, 0.0625}, {0.75, 0.1875}},
-    {"Henon-Heiles in a circle", false, true, 0.0, {0.125, 0.0625}, {0.75, 0.5}},
-    {"Henon-Heiles in a circle, with B", false, true, 1.0, {0.125, 0.0625}, {0.75, 0.5}},
-    {"Henon-Heiles in a rectangle", false, false, 0.0, {0.125, 0.0625}, {0.75, 0.5}},
-    {"Henon-Heiles in a rectangle, with B", false, false, 1.0, {0.125, 0.0625}, {0.75, 0.5}},
+    {"well in a circle", true, circular_wall, 0.0, {0.0, 0.125}, {0.75, -0.25}},
+    {"well in a circle, with B", true, circular_wall, 1.0, {0.125, 0.0625}, {0.75, 0.5}},
+    {"well in a rectangle", true, rectangular_wall, 0.0, {0.125, 0.0625}, {0.75, 0.5}},
+    {"well in a rectangle, with B", true, rectangular_wall, 1.0, {0.125, 0.0625}, {0.75, 0.1875}},
+    {"Henon-Heiles in a circle", false, circular_wall, 0.0, {0.125, 0.0625}, {0.75, 0.5}},
+    {"Henon-Heiles in a circle, with B", false, circular_wall, 1.0, {0.125, 0.0625}, {0.75, 0.5}},
+    {"Henon-Heiles in a rectangle", false, rectangular_wall, 0.0, {0.125, 0.0625}, {0.75, 0.5}},
+    {"Henon-Heiles in a rectangle, with B",
+     false,
+     rectangular_wall,
+     1.0,
+     {0.125, 0.0625},
+     {0.75, 0.5}},
+    {"well in curves", true, curved_wall, 0.0, {0.0, 0.125}, {0.75, -0.25}},
+    {"well in curves, with B", true, curved_wall, 1.0, {0.25, 0.0}, {0.0, 0.875}},
 };
 
 class WallsInSteps : public testing::TestWithParam<Setting> {};
@@ -126,7 +149,7 @@ TEST_P(WallsInSteps, KeepTheOrder) {
   const HarmonicWell well;
   const HenonHeiles henon_heiles;
   const ForceLaw<Real>& law = s.harmonic ? static_cast<const ForceLaw<Real>&>(well) : henon_heiles;
-  const std::vector<Barrier<Real>> walls = s.circle ? circular_wall() : rectangular_wall();
+  const std::vector<Barrier<Real>> walls = s.walls();
   const Real omega(s.omega), duration(76);
   const Phase<Real> start{{s.position}, {s.velocity}};
   const auto run = [&](const Scheme& scheme, int steps) {

@@ -11,6 +11,7 @@
 
 #include "carom/base/random.hpp"
 #include "carom/integrators/scheme.hpp"
+#include "events/step/barriers_of.hpp"
 #include "events/step/crossing_in_step.hpp"
 #include "integrators/splitting.hpp"
 #include "integrators/spreiter_walter.hpp"
@@ -50,7 +51,7 @@ Statistics measure(const Scheme& scheme, double omega, double step, int hits) {
   else
     stepper = std::make_unique<integrators::SplittingStepper<double>>(scheme, law, omegas);
   const events::Barrier<double> wall =
-      events::barrier_of<double>(geometry::Circle{{0.05, 0.03}, 0.5, true}, Vector{});
+      events::barriers_of<double>(geometry::Circle{{0.05, 0.03}, 0.5, true}, Vector{}).front();
   double sum = 0.0, squares = 0.0, hit_squares = 0.0;
   for (int orbit = 0; orbit < orbits; ++orbit) {
     RandomStream random(1, Purpose::initial_state, static_cast<std::uint64_t>(orbit));

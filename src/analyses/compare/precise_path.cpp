@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "carom/integrators/arithmetic.hpp"
+#include "events/step/barriers_of.hpp"
 #include "events/step/crossing_in_step.hpp"
 #include "events/step/group.hpp"
 #include "events/step/group_hit.hpp"
@@ -70,14 +71,10 @@ class Walls {
         in_doubles_(events::barriers_of(table)) {
     if (table.lattice) centre_ = events::centre_of_cell(*table.lattice);
     for (const events::Barrier<double>& b : in_doubles_) {
-      const Wall& wall = table.wall(b.wall);
+      if (!b.begins_wall) continue;  // it came with the part before it
       const QuadVector shift = translation(table.lattice, b.cell);
-      Barrier& own = barriers_.emplace_back(events::barrier_of<Quad>(wall.curve, shift));
-      own.wall = b.wall;
-      if (own.closed) continue;
-      own.meet(Barrier::End::from,
-               events::barrier_of<Quad>(table.wall(wall.previous).curve, shift));
-      own.meet(Barrier::End::to, events::barrier_of<Quad>(table.wall(wall.next).curve, shift));
+      for (Barrier& own : events::barriers_of<Quad>(table, b.wall, shift))
+        barriers_.push_back(std::move(own));
     }
   }
 

@@ -2,16 +2,18 @@
 // change.
 //
 // Free flights meet curves by algebra (next_hit.hpp). A path that is only known step by step meets
-// the zero of a gap function: the distance from a line, or (1 - |y|^2)/2 where y is the point seen
-// from a conic in units of its axes. The gap is positive on the domain's side.
+// the zero of a gap function: the distance from a line, (1 - |y|^2)/2 where y is the point seen
+// from a conic in units of its axes, or the height above the graph of a part of a Bézier curve. The
+// gap is positive on the domain's side.
 #pragma once
 
 #include <cmath>
 #include <limits>
-#include <variant>
+#include <memory>
 
 #include "carom/geometry/curve.hpp"
 #include "carom/geometry/lattice.hpp"
+#include "events/step/curve_graph.hpp"
 
 namespace carom::events {
 
@@ -20,36 +22,44 @@ struct Barrier {
   using Vector = geometry::BasicVector<Real>;
 
   bool conic = false;
-  Vector origin;  ///< a point of the line; centre of the conic
-  Vector first,
-      second;  ///< line: unit normal into the domain, and unused; conic: rows of the map to y
-  Real orientation{1};              ///< conic: +1 domain inside, -1 outside
-  bool closed = false;              ///< every point of the carrier belongs to the piece
-  Vector from, to;                  ///< ends of the piece, if it has any
-  Real reach_from{0}, reach_to{0};  ///< there, reach_of_wall of the walls that meet it
+  std::shared_ptr<const CurveGraph<Real>> graph;  ///< of a part of a Bézier curve; else null
+  Vector origin;  ///< a point of the line; the graph's; centre of the conic
+  /// Line: unit normal into the domain, and unused; conic: rows of the map to y; graph: unit
+  /// vectors across the chord, into the domain, and along it.
+  Vector first, second;
+  Real orientation{1};                        ///< conic: +1 domain inside, -1 outside
+  bool closed = false;                        ///< every point of the carrier belongs to the piece
+  bool begins_wall = true, ends_wall = true;  ///< a part's ends may lie within its wall
+  Vector from, to;                            ///< ends of the piece, if it has any
+  Real reach_from{0}, reach_to{0};            ///< there, reach_of_wall of the walls that meet it
   Real zone_from{0},
       zone_to{0};  ///< how far from there a particle on those may be beyond this wall
   Real thin_from{0}, thin_to{0};  ///< how far from there both sides of a needle are one to rounding
-  Real side{1};         ///< conic: the piece lies where side * cross(to - from, x - from) <= 0
-  Vector low, high;     ///< a box about the piece, larger than any rounding
-  int wall = -1;        ///< which wall or support it is
-  geometry::Cell cell;  ///< the cell whose copy of it this is
-  Real slack{0};        ///< at least on_wall() roundings of the gap, everywhere on the piece
+  Real side{1};  ///< conic: the piece lies where side * cross(to - from, x - from) <= 0
+  Real lowest{0}, highest{0};  ///< graph: its heights above the chord lie between them
+  Vector low, high;            ///< a box about the piece, larger than any rounding
+  int wall = -1;               ///< which wall or support it is
+  geometry::Cell cell;         ///< the cell whose copy of it this is
+  Real slack{0};               ///< at least on_wall() roundings of the gap, everywhere on the piece
 
   Real gap(const Vector& x) const {
     const Vector e = x - origin;
+    if (graph) return dot(first, e) - graph->at(dot(second, e)).y;
     if (!conic) return dot(first, e);
     const Real p = dot(first, e), q = dot(second, e);
     return orientation * (Real(1) - (p * p + q * q)) / Real(2);
   }
   /// Bound on the rounding error of gap(x): differences, two products and two sums a coordinate,
   /// each within half an epsilon of what it is made of; for a conic |y| is about 1 where it
-  /// matters.
+  /// matters. Of a graph: 6 for the height, as the origin was rounded twice, half as many for the
+  /// place, and those of the graph itself.
   Real rounding(const Vector& x) const {
     const Real half = std::numeric_limits<Real>::epsilon() / Real(2);
     const auto size = [](const Real& a) { return a < Real(0) ? -a : a; };
     const Real reach = size(x.x) + size(x.y) + size(origin.x) + size(origin.y);
     const Real largest = size(first.x) + size(first.y) + size(second.x) + size(second.y);
+    if (graph)
+      return half * (Real(6) * largest * reach + CurveGraph<Real>::roundings() * graph->extent);
     return Real(conic ? 8 : 4) * half * largest * reach;
   }
   /// How many roundings a particle on the wall may be from it: the search for a hit leaves it
@@ -82,32 +92,36 @@ struct Barrier {
   }
   /// Rate of change of the gap at x for the velocity v.
   Real rate(const Vector& x, const Vector& v) const {
-    if (!conic) return dot(first, v);
     const Vector e = x - origin;
+    if (graph) return dot(first, v) - graph->at(dot(second, e)).slope * dot(second, v);
+    if (!conic) return dot(first, v);
     return -orientation * (dot(first, e) * dot(first, v) + dot(second, e) * dot(second, v));
   }
   /// Bound on what rate(x, v) errs against the exact normal by, in epsilon halves. Line: the unit
   /// normal 5, products and sum 3. Conic: a map to y 9, twice; its rows 5, twice; the point and the
-  /// centre 4 together.
+  /// centre 4 together. Graph: twice a line's, 64 of the slope, and what the place changes it by.
   Real rate_rounding(const Vector& x, const Vector& v) const {
     const Real half = std::numeric_limits<Real>::epsilon() / Real(2);
     const auto size = [](const Real& a) { return a < Real(0) ? -a : a; };
     const Real largest = size(first.x) + size(first.y) + size(second.x) + size(second.y);
     const Real speed = size(v.x) + size(v.y);
+    if (graph) return Real(80) * half * speed + graph->bend * rounding(x) * speed;
     if (!conic) return Real(8) * half * largest * speed;
     const Real reach = size(x.x) + size(x.y) + size(origin.x) + size(origin.y);
     return Real(32) * half * (largest * reach) * (largest * speed);
   }
   /// A normal into the domain, of any length.
   Vector normal(const Vector& x) const {
-    if (!conic) return first;
     const Vector e = x - origin;
+    if (graph) return first - graph->at(dot(second, e)).slope * second;
+    if (!conic) return first;
     return (-orientation * dot(first, e)) * first + (-orientation * dot(second, e)) * second;
   }
   /// How far from the wall a particle on it may be.
   Real reach_of_wall(const Vector& x) const {
     const auto size = [](const Real& a) { return a < Real(0) ? -a : a; };
     const auto norm = [&](const Vector& a) { return size(a.x) + size(a.y); };
+    if (graph) return on_wall() * rounding(x);
     // The gap of a conic changes by 1 / axis or more with the way, and a row is as long as that.
     const Real p = norm(first), q = norm(second);
     return on_wall() * rounding(x) / (!conic || p < q ? p : q);
@@ -167,6 +181,7 @@ void Barrier<Real>::meet(End end, const Barrier& other) {
   const Real turn = begins ? cross(others, own) : cross(own, others);
   const Real turn_error = rate_rounding(joint, others) + other.rate_rounding(joint, own);
   const auto curvature = [&](const Barrier& b, const Vector& n) {
+    if (b.graph) return b.graph->bend;
     return b.conic ? (dot(b.first, b.first) + dot(b.second, b.second)) / length(n) : Real(0);
   };
   const Real curvatures = curvature(*this, own) + curvature(other, others);
@@ -195,77 +210,6 @@ void Barrier<Real>::meet(End end, const Barrier& other) {
   if (sharp)
     (begins ? thin_from : thin_to) = way(
         (-turn - turn_error) / lengths - grows(other, reach) - grows(*this, here), reach + here);
-}
-
-/// The barrier of a curve displaced by `shift`. Its numbers are those of the curve, computed in
-/// Real.
-template <class Real>
-Barrier<Real> barrier_of(const geometry::Curve& curve, const geometry::BasicVector<Real>& shift) {
-  using Vector = geometry::BasicVector<Real>;
-  using std::sqrt;
-  const auto exact = [](const geometry::Vector& a) { return Vector{Real(a.x), Real(a.y)}; };
-  const auto length = [](const Vector& a) { return sqrt(dot(a, a)); };
-  Barrier<Real> b;
-  const geometry::Box box = geometry::bounding_box(curve);
-  b.low = exact(box.low) + shift;
-  b.high = exact(box.high) + shift;
-  const auto size = [](const Real& a) { return a < Real(0) ? -a : a; };
-  const Real slack =
-      Real(0x1p-20) * (size(b.low.x) + size(b.low.y) + size(b.high.x) + size(b.high.y));
-  b.low = b.low - Vector{slack, slack};
-  b.high = b.high + Vector{slack, slack};
-  const auto conic = [&](const Vector& centre, const Vector& along, const Real& a,
-                         const Real& ratio, bool ccw) {
-    const Vector unit = (Real(1) / length(along)) * along;
-    b.conic = true;
-    b.origin = centre + shift;
-    b.first = (Real(1) / a) * unit;
-    b.second = (Real(1) / (a * ratio)) * left(unit);
-    b.orientation = ccw ? Real(1) : Real(-1);
-    b.side = b.orientation;
-  };
-  const auto ends = [&](const geometry::Vector& from, const geometry::Vector& to) {
-    b.from = exact(from) + shift;
-    b.to = exact(to) + shift;
-  };
-  if (const auto* s = std::get_if<geometry::Segment>(&curve)) {
-    ends(s->from, s->to);
-    const Vector chord = b.to - b.from;
-    b.origin = b.from;
-    b.first = left((Real(1) / length(chord)) * chord);
-  } else if (const auto* c = std::get_if<geometry::Circle>(&curve)) {
-    b.closed = true;
-    conic(exact(c->centre), Vector{Real(1), Real(0)}, Real(c->radius), Real(1),
-          c->counterclockwise);
-  } else if (const auto* e = std::get_if<geometry::Ellipse>(&curve)) {
-    b.closed = true;
-    conic(exact(e->centre), exact(e->axis), length(exact(e->axis)), Real(e->ratio),
-          e->counterclockwise);
-  } else if (const auto* a = std::get_if<geometry::CircularArc>(&curve)) {
-    const Vector from = exact(a->from), to = exact(a->to);
-    const Vector centre = Real(0.5) * (from + to) + Real(a->offset) * left(to - from);
-    conic(centre, from - centre, length(from - centre), Real(1), a->counterclockwise);
-    ends(a->from, a->to);
-  } else if (const auto* l = std::get_if<geometry::EllipticArc>(&curve)) {
-    // centre = middle + offset K(to - from), K e = -(e.q) p + k^2 (e.p) q (curve.hpp).
-    const Vector from = exact(l->from), to = exact(l->to), axis = exact(l->axis);
-    const Vector q = left(axis), chord = to - from;
-    const Real k = Real(l->ratio);
-    const Vector centre =
-        Real(0.5) * (from + to) +
-        Real(l->offset) * ((-dot(chord, q)) * axis + (k * k * dot(chord, axis)) * q);
-    const Vector r = from - centre;
-    const Real along = dot(r, axis), across = dot(r, q) / k;
-    conic(centre, axis, sqrt((along * along + across * across) / dot(axis, axis)), k,
-          l->counterclockwise);
-    ends(l->from, l->to);
-  }
-  const auto larger = [&](const Real& p, const Real& q) {
-    return size(p) < size(q) ? size(q) : size(p);
-  };
-  b.slack =
-      Barrier<Real>::on_wall() * b.rounding({larger(b.low.x, b.high.x), larger(b.low.y, b.high.y)});
-  return b;
 }
 
 }  // namespace carom::events

@@ -15,39 +15,15 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <limits>
 
 #include "events/step/barrier.hpp"
+#include "events/step/gap_shape.hpp"
 #include "events/step/step_hull.hpp"
 #include "events/step/step_path.hpp"
 
 namespace carom::events {
-
-/// A polynomial over a part of a step by its Bernstein coefficients: its values lie between the
-/// smallest and the largest of them.
-template <class Real, std::size_t size>
-struct StepPolynomial {
-  std::array<Real, size> coefficient;
-
-  StepPolynomial<Real, size - 1> derivative() const {
-    StepPolynomial<Real, size - 1> d;
-    for (std::size_t k = 0; k + 1 < size; ++k)
-      d.coefficient[k] = Real(static_cast<int>(size) - 1) * (coefficient[k + 1] - coefficient[k]);
-    return d;
-  }
-  Real lowest() const {
-    Real low = coefficient[0];
-    for (const Real& c : coefficient) low = c < low ? c : low;
-    return low;
-  }
-  Real highest() const {
-    Real high = coefficient[0];
-    for (const Real& c : coefficient) high = high < c ? c : high;
-    return high;
-  }
-};
 
 template <class Real>
 class CrossingSearch {
@@ -153,15 +129,10 @@ class CrossingSearch {
 
   Knot* search(const Barrier<Real>& b, std::size_t i, Knot& from, Knot& to, int depth) {
     const PathArc<Real> arc(path_, from, to, i);
-    Shape shape = Shape::unknown;
-    if (b.conic) {
-      shape = conic_shape(b, arc, noise(b, i, from));
-    } else {
-      StepPolynomial<Real, 6> g;
-      for (std::size_t k = 0; k < 6; ++k) g.coefficient[k] = b.gap(arc.points[k]);
-      shape = shape_of(g, only_across() ? arc.error_along(b.first) : arc.error, noise(b, i, from));
-    }
+    const Shape shape = GapShape<Real>(b, arc, noise(b, i, from), only_across()).find();
     switch (shape) {
+      case Shape::missed:
+        return nullptr;
       case Shape::none:
         break;
       case Shape::falling:
@@ -204,58 +175,9 @@ class CrossingSearch {
     return search(b, i, half, to, depth + 1);
   }
 
-  enum class Shape { none, falling, convex, concave, level, unknown };
-
   // Each of two coefficients errs by one rounding of the gap and one of its control point, at most.
   static Real noise(const Barrier<Real>& b, std::size_t i, const Knot& k) {
     return Real(4) * b.rounding(k.phase.position[i]);
-  }
-
-  // `error` is that of the gap; its derivatives err by what the coefficients of a polynomial that
-  // small may differ by. Coefficients that differ by less than `noise` tell nothing, nor do those
-  // within it of the wall.
-  template <std::size_t size>
-  static Shape shape_of(const StepPolynomial<Real, size>& g, const Real& error, const Real& noise) {
-    if (g.lowest() > error || g.highest() < -(error + noise)) return Shape::none;
-    const StepPolynomial<Real, size - 1> rate = g.derivative();
-    const Real rate_error = Real(static_cast<int>(size) - 1) * (Real(2) * error + noise);
-    if (rate.lowest() > rate_error) return Shape::none;
-    if (rate.highest() < -rate_error) return Shape::falling;
-    const StepPolynomial<Real, size - 2> bend = rate.derivative();
-    const Real bend_error = Real(2 * (static_cast<int>(size) - 2)) * rate_error;
-    if (bend.lowest() > bend_error) return Shape::convex;
-    if (bend.highest() < -bend_error) return Shape::concave;
-    return g.highest() - g.lowest() > noise ? Shape::unknown : Shape::level;
-  }
-
-  Shape conic_shape(const Barrier<Real>& b, const PathArc<Real>& arc, const Real& noise) const {
-    using Vector = geometry::BasicVector<Real>;
-    const auto seen = [&](const Vector& e) { return Vector{dot(b.first, e), dot(b.second, e)}; };
-    std::array<Vector, 6> y, d{};  // the quintic's points, and what they differ by from the cubic's
-    Real size(0);
-    for (std::size_t k = 0; k < 6; ++k) {
-      y[k] = seen(arc.points[k] - b.origin);
-      const Real n = PathHull<Real>::norm(y[k]);
-      size = size < n ? n : size;
-    }
-    for (std::size_t k = 0; k < 2; ++k) d[2 + k] = seen(arc.difference[k]);
-    static constexpr std::array<int, 6> five = {1, 5, 10, 10, 5, 1};
-    static constexpr std::array<int, 11> ten = {1, 10, 45, 120, 210, 252, 210, 120, 45, 10, 1};
-    StepPolynomial<Real, 11> g, differs;
-    for (std::size_t m = 0; m <= 10; ++m) {
-      Real sum(0), change(0);
-      for (std::size_t k = m > 5 ? m - 5 : 0; k <= 5 && k <= m; ++k) {
-        const Real weight(five[k] * five[m - k]);
-        sum = sum + weight * dot(y[k], y[m - k]);
-        change = change + weight * dot(d[k], Real(2) * y[m - k] - d[m - k]);
-      }
-      g.coefficient[m] = b.orientation * (Real(1) - sum / Real(ten[m])) / Real(2);
-      differs.coefficient[m] = change / Real(2 * ten[m]);
-    }
-    if (only_across()) return shape_of(g, std::max(differs.highest(), -differs.lowest()), noise);
-    const Real stretch = PathHull<Real>::norm(b.first) + PathHull<Real>::norm(b.second);
-    const Real error = stretch * arc.error;  // of y
-    return shape_of(g, size * error + error * error, noise);
   }
 
   // The gap falls from a point at or beyond the barrier. Where walls meet smoothly that may be the

@@ -48,7 +48,7 @@ ForceRegions::ForceRegions(const Table& table, const Table& walls, const Dynamic
   std::vector<geometry::Curve> curves;  // what is inside a support is integrated
   for (std::size_t i = table.walls.size(); i < walls.walls.size(); ++i)
     curves.push_back(geometry::reversed(walls.walls[i].curve));
-  edges_ = barriers_of(curves, table);
+  edges_ = barriers_of_edges(curves, table);
   for (Barrier<double>& edge : edges_) edge.wall += wall_count_;
 }
 

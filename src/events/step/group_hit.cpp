@@ -49,8 +49,9 @@ GroupHit hit_of(const PieceTable& pieces, const Table& table, const Group& group
   const Vector& there = group.phase().position[member];
   using End = Barrier<double>::End;
   const bool regular =
-      (!barrier.is_at(End::from, there) || is_regular(pieces, barrier.wall)) &&
-      (!barrier.is_at(End::to, there) ||
+      (!barrier.begins_wall || !barrier.is_at(End::from, there) ||
+       is_regular(pieces, barrier.wall)) &&
+      (!barrier.ends_wall || !barrier.is_at(End::to, there) ||
        is_regular(pieces, pieces.table.walls[static_cast<std::size_t>(barrier.wall)].next));
   hit.inward =
       inward == Sign::positive && regular && !barrier.is_thin(there) && !group.next().slides;

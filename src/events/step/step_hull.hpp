@@ -101,7 +101,7 @@ CAROM_INLINE auto stays_off(const Barrier<Real>& b, const StepHull<Number>& hull
       high = larger(high, gap);
     }
     const Number margin = hull.margin + number(b.slack);
-    off = off || low > margin || high < -margin;
+    off = off || low > number(b.highest) + margin || high < number(b.lowest) - margin;
     return off;
   }
   const Vector across{number(b.second.x), number(b.second.y)};

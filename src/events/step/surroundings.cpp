@@ -4,10 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "carom/base/error.hpp"
 #include "carom/geometry/hull.hpp"
 #include "carom/geometry/lattice_copies.hpp"
+#include "events/step/barriers_of.hpp"
 #include "events/step/group.hpp"
 
 namespace carom::events {
@@ -74,38 +76,41 @@ std::vector<Cell> cells_of_copies(const Curve& curve, const Lattice& lattice,
   return cells;
 }
 
-}  // namespace
-
-std::vector<Barrier<double>> barriers_of(std::span<const Curve> curves, const Table& table) {
+/// Of several curves, all copies that a particle may meet: `make` gives a displaced curve's.
+template <class CurveOf, class Make>
+std::vector<Barrier<double>> with_copies(const Table& table, std::size_t count,
+                                         const CurveOf& curve_of, const Make& make) {
   std::vector<Barrier<double>> barriers;
-  const auto add = [&](std::size_t i, const Cell& cell, Vector shift) {
-    barriers.push_back(barrier_of<double>(curves[i], shift));
-    Barrier<double>& b = barriers.back();
-    b.wall = static_cast<int>(i);
-    b.cell = cell;
-    if (b.closed || i >= table.walls.size()) return;
-    const auto neighbour = [&](int wall) {
-      return barrier_of<double>(curves[static_cast<std::size_t>(wall)], shift);
-    };
-    b.meet(Barrier<double>::End::from, neighbour(table.walls[i].previous));
-    b.meet(Barrier<double>::End::to, neighbour(table.walls[i].next));
-  };
   const std::vector<Box> boxes = table.lattice ? ways_of_steps(table) : std::vector<Box>{};
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    if (!table.lattice) {
-      add(i, {}, {});
-      continue;
-    }
-    for (const Cell& cell : cells_of_copies(curves[i], *table.lattice, boxes))
-      add(i, cell, table.lattice->translation(cell));
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::vector<Cell> cells =
+        table.lattice ? cells_of_copies(curve_of(i), *table.lattice, boxes) : std::vector{Cell{}};
+    for (const Cell& cell : cells)
+      for (Barrier<double>& b :
+           make(i, table.lattice ? table.lattice->translation(cell) : Vector{})) {
+        b.wall = static_cast<int>(i);
+        b.cell = cell;
+        barriers.push_back(std::move(b));
+      }
   }
   return barriers;
 }
 
+}  // namespace
+
+std::vector<Barrier<double>> barriers_of_edges(std::span<const Curve> edges, const Table& table) {
+  return with_copies(
+      table, edges.size(), [&](std::size_t i) -> const Curve& { return edges[i]; },
+      [&](std::size_t i, Vector shift) { return barriers_of<double>(edges[i], shift); });
+}
+
 std::vector<Barrier<double>> barriers_of(const Table& table) {
-  std::vector<Curve> curves;
-  for (const Wall& wall : table.walls) curves.push_back(wall.curve);
-  return barriers_of(curves, table);
+  return with_copies(
+      table, table.walls.size(),
+      [&](std::size_t i) -> const Curve& { return table.walls[i].curve; },
+      [&](std::size_t i, Vector shift) {
+        return barriers_of<double>(table, static_cast<int>(i), shift);
+      });
 }
 
 bool in_some_support(std::span<const Barrier<double>> supports, Vector x,

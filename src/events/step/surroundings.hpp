@@ -10,12 +10,12 @@
 
 namespace carom::events {
 
-/// The curves, numbered in their order, as barriers: those of the table's walls, and others behind
-/// them. On the table's lattice: all copies that a particle may meet within a step that leads no
-/// farther than longest_way(table). Throws InputError if there are too many.
-std::vector<Barrier<double>> barriers_of(std::span<const geometry::Curve>, const Table&);
-/// The barriers of the table's walls.
+/// The barriers of the table's walls, numbered as these. On the table's lattice: all copies that a
+/// particle may meet within a step that leads no farther than longest_way(table). Throws InputError
+/// if there are too many.
 std::vector<Barrier<double>> barriers_of(const Table&);
+/// The same of closed curves that are no walls, numbered in their order.
+std::vector<Barrier<double>> barriers_of_edges(std::span<const geometry::Curve>, const Table&);
 
 /// Is the point inside one of the supports, or on its edge to rounding, where a flight would not
 /// know its side? `except` is not asked.

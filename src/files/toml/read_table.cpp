@@ -141,22 +141,22 @@ void read_pieces(TomlSection& section, LoopSpec& loop) {
 }
 
 LoopSpec read_loop(Value& value) {
-  using Kind = LoopSpec::Kind;
+  using Form = LoopSpec::Kind;
   const auto has = [&](const char* key) { return value.find(key) != nullptr; };
   LoopSpec loop;
   loop.place = value.place;
-  loop.kind = has("radius") ? Kind::circle : has("a") || has("b") ? Kind::ellipse : Kind::pieces;
+  loop.kind = has("radius") ? Form::circle : has("a") || has("b") ? Form::ellipse : Form::pieces;
   TomlSection section(value, "table.loop",
-                      loop.kind == Kind::circle    ? "circle"
-                      : loop.kind == Kind::ellipse ? "ellipse"
+                      loop.kind == Form::circle    ? "circle"
+                      : loop.kind == Form::ellipse ? "ellipse"
                                                    : "pieces");
   section.check_keys();
-  if (loop.kind == Kind::pieces) {
+  if (loop.kind == Form::pieces) {
     read_pieces(section, loop);
     return loop;
   }
   loop.center = as_point(section.get("center"));
-  if (loop.kind == Kind::circle) {
+  if (loop.kind == Form::circle) {
     loop.radius = as_number(section.get("radius"));
   } else {
     loop.a = as_number(section.get("a"));

@@ -109,16 +109,13 @@ void check_regions(const Value& root, const System& system, const Table& table) 
   }
 }
 
-// Bézier curves are met by free flights alone, so far.
+// A disc's centre would keep its distance from a curve, along no Bézier curve.
 void check_beziers(const Value& root, const System& system, const Table& table) {
   const Wall* wall = table::bezier_wall(table);
-  if (wall == nullptr) return;
-  const std::string what = "beside Bézier curves, of which wall '" + wall->name + "' is one";
-  if (system.dynamics.forces->empty() && !system.of_discs()) return;
-  const Value* forces = root.find("potential");
-  if (forces == nullptr) forces = root.find("interaction");
-  throw InputError(forces->place, "forces " + what + ", are not there yet",
-                   "walls of segments, circles and ellipses, or no forces");
+  if (wall == nullptr || !system.of_discs()) return;
+  throw InputError(root.find("interaction")->place,
+                   "hard discs beside Bézier curves, of which wall '" + wall->name + "' is one",
+                   "walls of segments, circles and ellipses, or another interaction");
 }
 
 // Samples are counted as steps are.
