@@ -3,15 +3,18 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "carom/base/elementary.hpp"
 #include "carom/certify/certified_periodic_orbit.hpp"
+#include "certify/flight/beside_curve.hpp"
 #include "certify/flight/larmor_flight.hpp"
 #include "certify/flight/scene.hpp"
 #include "certify/number/enclosure_of.hpp"
 #include "certify/number/exact_value.hpp"
+#include "certify/wall/curve_of_formulas.hpp"
 
 namespace carom {
 
@@ -29,14 +32,20 @@ Ball sin_of(const Ball& a) {
   arb_sin(r.raw(), a.raw(), Precision::bits());
   return r;
 }
+geometry::Vector middle(const BallVector& v) { return {v.x.to_double(), v.y.to_double()}; }
 BallVector scaled(const Ball& s, const BallVector& v) { return {s * v.x, s * v.y}; }
 
-// A wall as a function of one number: from + t chord, or centre + A cos t + B sin t.
-struct Place {
-  BallVector point, first, second;  ///< and its derivatives
-};
+// A wall as a function of one number: from + t chord, or centre + A cos t + B sin t; or the whole
+// curve that a wall is a piece of.
+using Place = CurvePlace;
 class Path {
  public:
+  /// `along` the piece's chord the domain lies to the left.
+  Path(const CurveOfFormulas& curve, geometry::Vector near, geometry::Vector along)
+      : curve_(&curve), near_(nearest(near)) {
+    const geometry::Vector first = middle(curve.at(Ball(near_)).first);
+    turn = dot(first, along) < 0.0 ? -1.0 : 1.0;
+  }
   explicit Path(const WallOf<Ball>& wall) : straight_(wall.form == Form::segment) {
     turn = wall.turn;
     if (straight_) {
@@ -55,6 +64,7 @@ class Path {
   }
 
   Place at(const Ball& t) const {
+    if (curve_) return curve_->at(t);
     if (straight_) return {origin_ + scaled(t, a_), a_, {Ball(0), Ball(0)}};
     const Ball c = cos_of(t), s = sin_of(t);
     const BallVector out = scaled(c, a_) + scaled(s, b_);
@@ -62,6 +72,7 @@ class Path {
   }
   /// The number of a point that is nearly on the wall.
   double near(geometry::Vector p) const {
+    if (curve_) return near_;
     const geometry::Vector e{p.x - origin_.x.to_double(), p.y - origin_.y.to_double()};
     const auto part = [&](const BallVector& axis) {
       const geometry::Vector v{axis.x.to_double(), axis.y.to_double()};
@@ -73,7 +84,29 @@ class Path {
   double turn = 1.0;  ///< -1: arc length runs against t
 
  private:
-  bool straight_;
+  /// By looking at many points, and a few of Newton's steps from the nearest.
+  double nearest(geometry::Vector p) const {
+    constexpr int looks = 2048;
+    const double from = curve_->from().to_double(), length = curve_->length().to_double();
+    double best = from, least = HUGE_VAL;
+    for (int k = 0; k < looks; ++k) {
+      const double t = from + length * k / looks;
+      const geometry::Vector e = middle(curve_->at(Ball(t)).point) - p;
+      if (!(dot(e, e) < least)) continue;
+      best = t;
+      least = dot(e, e);
+    }
+    for (int n = 0; n < 8; ++n) {
+      const Place here = curve_->at(Ball(best));
+      const geometry::Vector e = middle(here.point) - p, first = middle(here.first);
+      best -= dot(e, first) / (dot(first, first) + dot(e, middle(here.second)));
+    }
+    return best;
+  }
+
+  const CurveOfFormulas* curve_ = nullptr;  ///< or a wall's, which follows
+  double near_ = 0.0;
+  bool straight_ = false;
   BallVector origin_, a_, b_;
 };
 
@@ -118,12 +151,22 @@ class Matrix {
 // of the hits and, in a field, the half-turns as unknowns.
 class Equations {
  public:
-  Equations(const ExactSystem& system, const std::vector<NearHit>& hits) : hits_(hits) {
-    BallTable table = ball_table(*system.spec);
+  Equations(const ExactSystem& system, const std::vector<NearHit>& hits)
+      : hits_(hits), curve_(curve_of(system)) {
     const Ball omega = value_of(system.omega);
-    where_ = whereabouts_of(table, omega);
-    scene_.walls = std::move(table.walls);
-    scene_.lattice = std::move(table.lattice);
+    if (curve_) {
+      for (const NearHit& hit : hits) {
+        const geometry::Curve& piece = system.table->wall(hit.wall).curve;
+        paths_.emplace_back(*curve_, hit.position, end_point(piece) - start_point(piece));
+      }
+    } else {
+      BallTable table = ball_table(*system.spec);
+      where_ = whereabouts_of(table, omega);
+      scene_.walls = std::move(table.walls);
+      scene_.lattice = std::move(table.lattice);
+      for (const NearHit& hit : hits)
+        paths_.emplace_back(scene_.walls[static_cast<std::size_t>(hit.wall)]);
+    }
     speed = value_of(system.speed);
     scene_.motion.speed2 = square(speed);
     scene_.motion.inverse_speed2 = Ball(1) / scene_.motion.speed2;
@@ -132,8 +175,6 @@ class Equations {
     scene_.motion.time_bits = Precision::bits();
     curvature_ = omega / speed;
     field_ = scene_.motion.turns;
-    for (const NearHit& hit : hits)
-      paths_.emplace_back(scene_.walls[static_cast<std::size_t>(hit.wall)]);
   }
 
   std::size_t size() const { return field_ ? 2 * hits_.size() : hits_.size(); }
@@ -244,13 +285,13 @@ class Equations {
   }
 
   // Does each flight meet the next hit's wall first, and there?
-  std::string obstacle(const At& a) const {
+  std::string obstacle(const std::vector<Ball>& x, const At& a) const {
     const std::size_t n = hits_.size();
+    for (std::size_t i = 0; curve_ && i < n; ++i)
+      if (const std::string fault = obstacle_on_curve(x, a, i); !fault.empty()) return fault;
+    if (curve_) return {};
     for (std::size_t i = 0; i < n; ++i) {
       const BallVector &P = a.places[i].point, v = scaled(speed, a.flights[i].out);
-      const auto middle = [](const BallVector& w) {
-        return geometry::Vector{w.x.to_double(), w.y.to_double()};
-      };
       const NearHit &from = hits_[i], &to = hits_[(i + 1) % n];
       const Choice next = scene_.next(where_, P, v, from.wall, middle(P), middle(v));
       if (next.answer != Choice::wall) return "it cannot be told which wall a flight meets first";
@@ -269,12 +310,40 @@ class Equations {
   Ball speed;
 
  private:
+  /// Of an outer wall alone.
+  static std::optional<CurveOfFormulas> curve_of(const ExactSystem& system) {
+    const TableSpec& spec = *system.spec;
+    if (!spec.obstacles.empty() || spec.lattice) return {};
+    std::optional<table::shapes::CurveFormulas> written = table::shapes::formulas_of(spec);
+    if (!written) return {};
+    return CurveOfFormulas(std::move(*written));
+  }
+  std::string obstacle_on_curve(const std::vector<Ball>& x, const At& a, std::size_t i) const {
+    const std::size_t next = (i + 1) % hits_.size();
+    const Flight& f = a.flights[i];
+    const auto inwards = [&](std::size_t k, const BallVector& v) {
+      return sign(Ball(paths_[k].turn) * cross(a.places[k].first, v));
+    };
+    if (inwards(i, f.out) != Sign::positive || inwards(next, f.in) != Sign::negative)
+      return "a flight is not inside the curve";
+    FlightBetween flight{a.places[i].point, a.places[next].point, field_};
+    if (field_) {
+      flight.clockwise = sign(curvature_) == Sign::positive;
+      const BallVector to_centre = scaled(Ball(-1) / curvature_, left(f.out));
+      flight.centre = flight.from + to_centre;
+      flight.radius2 = dot(to_centre, to_centre);
+    }
+    return meets_nowhere_else(*curve_, flight, x[i], x[next])
+               ? ""
+               : "a flight meets the curve earlier, or it cannot be told";
+  }
   Ball half_curvature() const {
     return sign(curvature_) == Sign::negative ? -(curvature_ / 2) : curvature_ / 2;
   }
   Ball clockwise() const { return Ball(sign(curvature_) == Sign::negative ? -1 : 1); }
 
   const std::vector<NearHit>& hits_;
+  std::optional<CurveOfFormulas> curve_;
   SceneOf<Ball> scene_;
   Whereabouts where_;
   std::vector<Path> paths_;
@@ -345,7 +414,7 @@ CertifiedPeriodicOrbit certify_orbit(const ExactSystem& system, const std::vecto
       return orbit;
     }
     const Equations::At at = equations.at(*box);
-    orbit.reason = equations.obstacle(at);
+    orbit.reason = equations.obstacle(*box, at);
     if (!orbit.reason.empty()) return orbit;
     const Ball length = equations.length(at), trace = equations.trace(at);
     std::vector<Ball> all{length, length / equations.speed, trace};

@@ -5,26 +5,15 @@
 #include <utility>
 #include <vector>
 
-#include "base/expression_grammar.hpp"
 #include "carom/base/exact_number.hpp"
 #include "forces/formula.hpp"
+#include "forces/formula_words.hpp"
 
 namespace carom::forces::formula {
 namespace {
 
 using base::Fault;
 
-struct Function {
-  const char* name;
-  Operation operation;
-  int arguments;
-};
-constexpr Function functions[] = {
-    {"sqrt", Operation::root, 1},  {"exp", Operation::exp, 1},   {"log", Operation::log, 1},
-    {"sin", Operation::sin, 1},    {"cos", Operation::cos, 1},   {"tan", Operation::tan, 1},
-    {"sinh", Operation::sinh, 1},  {"cosh", Operation::cosh, 1}, {"tanh", Operation::tanh, 1},
-    {"abs", Operation::abs, 1},    {"min", Operation::least, 2}, {"max", Operation::greatest, 2},
-    {"atan2", Operation::atan2, 2}};
 constexpr std::pair<const char*, double> constants[] = {{"pi", 0x1.921fb54442d18p1},
                                                         {"e", 0x1.5bf0a8b145769p1}};
 
@@ -34,22 +23,10 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-const Function* function_named(const std::string& word) {
-  const auto found = std::find_if(std::begin(functions), std::end(functions),
-                                  [&](const Function& f) { return f.name == word; });
-  return found == std::end(functions) ? nullptr : found;
-}
-
 class Typed {
  public:
   using Value = Part;
-  static constexpr base::Dialect dialect{.subject = "formula",
-                                         .operand = "a number, a name or '('",
-                                         .product = "an operator (* for a product)",
-                                         .unclosed_before = "an operator (+ - * / ^) or ",
-                                         .blanks = " \t\n\r",
-                                         .e_is_a_name = true,
-                                         .column_in_file = true};
+  static constexpr const base::Dialect& dialect = formula::dialect;
 
   Typed(std::span<const std::string> variables, const std::map<std::string, double>& parameters)
       : variables_(variables), parameters_(parameters), builder_(variables.size()) {}

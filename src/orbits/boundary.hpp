@@ -13,6 +13,10 @@ namespace carom::orbits {
 /// 2^-53.
 inline constexpr double unit_roundoff = 0x1p-53;
 
+/// Of each wall, a number that the pieces of one smooth Bézier curve have in common: that of one of
+/// them. A hit may move from one to the next.
+std::vector<int> smooth_curves(const Table&);
+
 struct Boundary {
   /// Refers to the table. Holes count as walls.
   Boundary(const Table&, const Particle&);
@@ -20,6 +24,7 @@ struct Boundary {
   const Table* table;
   Particle particle;
   std::vector<geometry::CurveFrame> frames;  ///< of the walls
+  std::vector<int> curves;                   ///< smooth_curves()
   double size = 0.0;  ///< largest coordinate of a wall, in size; of a lattice vector, too
 
   /// Curvature of flights with the sign of omega: positive turns clockwise.
@@ -33,9 +38,13 @@ struct WallPoint {
 };
 WallPoint wall_point(const Boundary&, int wall, double u);
 
-/// The parameter of the wall's point that lies `distance` from u along the tangent, seen from the
-/// wall's centre: a step of Newton's that stays on the wall. `left_wall` is set where the wall ends
-/// before.
-double moved_along(const Boundary&, int wall, double u, double distance, bool& left_wall);
+/// The point of a wall, or of the next ones of its curve.
+struct WallPlace {
+  int wall = 0;
+  double u = 0.0;
+};
+/// The point that lies `distance` along the tangent, seen from the wall's centre, or along a Bézier
+/// curve: a step of Newton's that stays on the wall. `left_wall` is set where that ends before.
+WallPlace moved_along(const Boundary&, WallPlace, double distance, bool& left_wall);
 
 }  // namespace carom::orbits

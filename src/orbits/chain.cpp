@@ -65,6 +65,11 @@ double residual_error(const Boundary& boundary, const ChainGeometry& g) {
   return unit_roundoff * (48.0 * boundary.size / g.shortest + 34.0);
 }
 
+double error_of_pieces(const Boundary& boundary, const ChainGeometry& g) {
+  const CurveErrors& off = boundary.table->curve_errors;
+  return 4.0 * off.distance / g.shortest + 2.0 * off.normal;
+}
+
 std::vector<double> derivatives(const Boundary& boundary, const ChainGeometry& g) {
   const std::size_t n = g.points.size();
   const bool field = has_field(boundary);
@@ -104,7 +109,9 @@ bool move(const Boundary& boundary, Chain& chain, const std::vector<double>& ste
   bool left_wall = false;
   for (std::size_t i = 0; i < n; ++i) {
     Link& link = chain[i];
-    link.u = moved_along(boundary, link.wall, link.u, factor * step[i], left_wall);
+    const WallPlace moved = moved_along(boundary, {link.wall, link.u}, factor * step[i], left_wall);
+    link.wall = moved.wall;
+    link.u = moved.u;
     if (has_field(boundary)) link.half_turn += factor * step[n + i];
   }
   return !left_wall;

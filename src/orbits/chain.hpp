@@ -53,6 +53,9 @@ std::vector<double> residual(const Boundary&, const ChainGeometry&);
 /// What rounding may have added to one of them (1).
 double residual_error(const Boundary&, const ChainGeometry&);
 
+/// What they miss where walls are pieces in place of a curve that was written (2).
+double error_of_pieces(const Boundary&, const ChainGeometry&);
+
 /// Their derivatives, row after row, by the arc lengths of all hits, then by the half-turns.
 std::vector<double> derivatives(const Boundary&, const ChainGeometry&);
 
@@ -68,5 +71,8 @@ double area_of(const Boundary&, const Chain&, const ChainGeometry&);
 // translation), so both ends turn a chord by at most 24 u D / l; the difference, root and quotients
 // add 4 u, sine and cosine 2 u, the rotation 3 u, the tangent 5 u, and the product with it 3 u. Two
 // directions meet at a hit: 48 u D / l + 34 u. The closing equation has k l <= 2 and errs by less.
+//
+// (2) Pieces are off their curve by `distance`, their normals by `normal` (table.curve_errors):
+// both ends turn a chord by 2 distance / l, two of them meet at a hit, and its tangent turns both.
 
 }  // namespace carom::orbits

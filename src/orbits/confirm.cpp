@@ -78,7 +78,9 @@ bool confirmed(const Boundary& boundary, World& world, const Solution& solution,
     world.run_until(std::numeric_limits<double>::max(), first);
     if (!first.met) return false;
     const HitEvent& hit = first.event();
-    if (hit.wall != to.wall || hit.cell != from.step || hit.reflections != 1) return false;
+    const auto curve = [&](int wall) { return boundary.curves[static_cast<std::size_t>(wall)]; };
+    if (curve(hit.wall) != curve(to.wall) || hit.cell != from.step || hit.reflections != 1)
+      return false;
     const Vector miss = hit.position - to.position;
     if (!(std::sqrt(dot(miss, miss)) <= allowed(boundary, solution, i))) return false;
   }

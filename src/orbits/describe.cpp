@@ -5,8 +5,10 @@
 #include <limits>
 #include <map>
 #include <string_view>
+#include <vector>
 
 #include "orbits/across.hpp"
+#include "orbits/boundary.hpp"
 #include "orbits/maslov.hpp"
 
 namespace carom {
@@ -25,21 +27,27 @@ const char* name_of(Stability stability) {
   return "parabolic";
 }
 
-OrbitWords words_of(const std::vector<PeriodicOrbit>& orbits, const Table& table) {
+OrbitWords words_of(const std::vector<PeriodicOrbit>& found, const Table& table) {
   constexpr std::string_view alphabet = "123456789abcdefghijklmnopqrstuvwxyz";
-  std::map<std::uint32_t, std::string> letters;
-  for (const PeriodicOrbit& orbit : orbits)
-    for (const OrbitHit& hit : orbit.hits) letters[static_cast<std::uint32_t>(hit.wall)];
+  const std::vector<int> curves = orbits::smooth_curves(table);
+  const auto curve = [&](const OrbitHit& hit) {
+    return curves[static_cast<std::size_t>(hit.wall)];
+  };
+  std::map<int, std::string> letters;
+  for (const PeriodicOrbit& orbit : found)
+    for (const OrbitHit& hit : orbit.hits) letters[curve(hit)];
   const bool enough = letters.size() <= alphabet.size();
   OrbitWords all;
   for (auto& [wall, letter] : letters) {
-    const std::string& name = table.walls[wall].name;
+    std::string name = table.wall(wall).name;
+    // The pieces of a curve are called curve_1, curve_2 ...
+    if (std::count(curves.begin(), curves.end(), wall) > 1) name = name.substr(0, name.rfind('_'));
     letter = enough ? std::string(1, alphabet[all.letters.size()]) : name + " ";
     if (enough) all.letters.emplace_back(letter, name);
   }
-  for (const PeriodicOrbit& orbit : orbits) {
+  for (const PeriodicOrbit& orbit : found) {
     std::string word;
-    for (const OrbitHit& hit : orbit.hits) word += letters[static_cast<std::uint32_t>(hit.wall)];
+    for (const OrbitHit& hit : orbit.hits) word += letters[curve(hit)];
     if (!enough) word.pop_back();
     all.words.push_back(word);
   }
@@ -77,6 +85,21 @@ double trace_error_of_places(const Boundary& boundary, const Solution& solution)
     sum += std::abs(trace_at(boundary, moved) - at) / width;
   }
   return sum * solution.error;
+}
+
+// How far the curvatures of pieces, which are not those of the curve, move the trace. It is linear
+// in each of them.
+double trace_error_of_pieces(const Boundary& boundary, const Solution& solution, double trace) {
+  const double off = boundary.table->curve_errors.curvature;
+  if (off == 0.0) return 0.0;
+  double sum = 0.0;
+  ChainGeometry g = solution.geometry;
+  for (WallPoint& point : g.points) {
+    point.curvature += 1.0;
+    sum += std::abs(tangent_map(boundary, solution.chain, g, g.points.size()).trace() - trace);
+    point.curvature -= 1.0;
+  }
+  return off * sum;
 }
 
 void add_stability(PeriodicOrbit& orbit) {
@@ -140,12 +163,14 @@ PeriodicOrbit describe(const Boundary& boundary, const Solution& solution) {
   const double count = static_cast<double>(n);
   orbit.position_error = solution.error;
   orbit.length_error = p.omega == 0.0
-                           ? unit_roundoff * count * (24.0 * boundary.size + 4.0 * orbit.length)
+                           ? unit_roundoff * count * (24.0 * boundary.size + 4.0 * orbit.length) +
+                                 2.0 * count * boundary.table->curve_errors.distance
                            : 2.0 * count * solution.error / std::abs(boundary.flight_curvature());
   // Each factor's entries are sums of a few products of directions, curvature, length and 1/cos,
   // of which the first and the last err as the equations do, over the cosine.
   const double relative = 2.0 * count * residual_error(boundary, g) / least_cosine;
-  orbit.trace_error = relative * sizes.trace() + trace_error_of_places(boundary, solution);
+  orbit.trace_error = relative * sizes.trace() + trace_error_of_places(boundary, solution) +
+                      trace_error_of_pieces(boundary, solution, orbit.trace);
   orbit.family = solution.lost_rank > 0;
   add_stability(orbit);
   orbit.maslov = maslov_index(flights_across(boundary, chain, g), orbit.stability);

@@ -138,8 +138,10 @@ std::optional<Solution> solve(const Boundary& boundary, Chain chain) {
   }
   if (smallest == 0.0) return {};
   // Twice the step that the equations' error would make; its 2-norm bounds each unknown.
-  best.error = 2.0 * std::sqrt(static_cast<double>(m)) *
-               (least + residual_error(boundary, best.geometry)) / smallest;
+  best.error =
+      2.0 * std::sqrt(static_cast<double>(m)) *
+      (least + residual_error(boundary, best.geometry) + error_of_pieces(boundary, best.geometry)) /
+      smallest;
   return best;
 }
 

@@ -20,7 +20,7 @@ struct Length {
     bool left_wall = false;
     for (std::size_t i = 0; i < chain.size(); ++i)
       chain[i].u =
-          moved_along(boundary, chain[i].wall, chain[i].u, gsl_vector_get(by, i), left_wall);
+          moved_along(boundary, {chain[i].wall, chain[i].u}, gsl_vector_get(by, i), left_wall).u;
     return chain;
   }
 };

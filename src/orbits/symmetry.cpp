@@ -160,7 +160,10 @@ std::vector<Match> matches(const Boundary& boundary, const std::vector<Isometry>
         const auto same = [&](std::size_t i) {
           const std::size_t j = reversed ? (shift + n - i) % n : (shift + i) % n;
           const OrbitHit &a = one.hits[i], &b = other.hits[j];
-          if (maps[m].walls[static_cast<std::size_t>(a.wall)] != b.wall) return false;
+          const int seen = maps[m].walls[static_cast<std::size_t>(a.wall)];
+          if (boundary.curves[static_cast<std::size_t>(seen)] !=
+              boundary.curves[static_cast<std::size_t>(b.wall)])
+            return false;
           const geometry::Cell step = reversed ? other.hits[(j + n - 1) % n].step : b.step;
           const geometry::Cell image = maps[m](a.step);
           const std::int64_t sign = reversed ? -1 : 1;
@@ -187,7 +190,7 @@ bool repeats(const PeriodicOrbit& orbit) {
     bool same = true;
     for (std::size_t i = 0; i < n && same; ++i) {
       const OrbitHit &a = orbit.hits[i], &b = orbit.hits[(i + part) % n];
-      same = a.wall == b.wall && a.step == b.step && length(a.position - b.position) <= error &&
+      same = a.step == b.step && length(a.position - b.position) <= error &&
              std::abs(orbit.half_turns[i] - orbit.half_turns[(i + part) % n]) <= error;
     }
     if (same) return true;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,17 @@ struct Layout {
   std::string stem = "curve";
   bool clockwise = false;
 };
+
+/// A closed curve as it is written: r(phi) about the origin, or x(t) and y(t).
+struct CurveFormulas {
+  bool polar = false;
+  WrittenFormula first, second = {};  ///< the radius and nothing, or x and y
+  std::map<std::string, ExactNumber> numbers =
+      {};  ///< by the names that the formulas have for them
+  ExactNumber from = {}, to = ExactNumber("2*pi");
+};
+/// Of a shape whose outer wall is one; nothing of others.
+std::optional<CurveFormulas> formulas_of(const TableSpec&);
 
 /// A curve r(phi) about a centre; names follow the walls.
 ClosedCurve drawn_polar(const WrittenFormula& radius, geometry::Vector centre, const Layout&);

@@ -191,19 +191,25 @@ class Drawing {
   std::vector<Bezier> pieces_;
 };
 
-Polar polar_with(const WrittenFormula& radius, const Numbers& numbers = {}) {
-  return {radius.place, parsed(radius, "phi", numbers)};
+ClosedCurve drawn(const CurveFormulas& curve, const Layout& layout) {
+  Numbers numbers;
+  for (const auto& [name, value] : curve.numbers) numbers.emplace(name, value.to_double());
+  const Place& place = curve.first.place;
+  if (curve.polar) return Drawing(Polar{place, parsed(curve.first, "phi", numbers)}).walls(layout);
+  const double from = curve.from.to_double(), to = curve.to.to_double();
+  if (!(to > from))
+    throw InputError(curve.to.place(), "'to' is not larger than 'from'", "from < to");
+  return Drawing(Parametric{place, parsed(curve.first, "t", numbers),
+                            parsed(curve.second, "t", numbers), from, to})
+      .walls(layout);
 }
-Parametric parametric_with(const WrittenFormula& x, const WrittenFormula& y, double from, double to,
-                           const Numbers& numbers = {}) {
-  return {x.place, parsed(x, "t", numbers), parsed(y, "t", numbers), from, to};
-}
-
-Shape as_table(ClosedCurve curve) {
-  Shape shape;
-  shape.loops.push_back(std::move(curve.chain));
-  shape.curve_errors = curve.errors;
-  return shape;
+CurveFormulas parametric_with(const WrittenFormula& x, const WrittenFormula& y,
+                              const std::optional<ExactNumber>& from,
+                              const std::optional<ExactNumber>& to) {
+  CurveFormulas curve{false, x, y};
+  if (from) curve.from = *from;
+  if (to || from) curve.to = to ? *to : ExactNumber("2*pi", from->place());
+  return curve;
 }
 
 const WrittenFormula& formula(const TableSpec& spec, const char* key, const char* example) {
@@ -222,7 +228,7 @@ std::optional<ExactNumber> given(const TableSpec& spec, const char* key) {
 }  // namespace
 
 ClosedCurve drawn_polar(const WrittenFormula& radius, Vector centre, const Layout& layout) {
-  ClosedCurve curve = Drawing(polar_with(radius)).walls(layout);
+  ClosedCurve curve = drawn({true, radius}, layout);
   if (centre == Vector{}) return curve;
   CurveErrors moved;
   for (NamedCurve& wall : curve.chain) {
@@ -251,36 +257,14 @@ ClosedCurve drawn_polar(const WrittenFormula& radius, Vector centre, const Layou
 ClosedCurve drawn_parametric(const WrittenFormula& x, const WrittenFormula& y,
                              const std::optional<ExactNumber>& from,
                              const std::optional<ExactNumber>& to, const Layout& layout) {
-  const double begin = from ? from->to_double() : 0.0, end = to ? to->to_double() : two_pi;
-  if (!(end > begin))
-    throw InputError(to ? to->place() : from->place(), "'to' is not larger than 'from'",
-                     "from < to");
-  return Drawing(parametric_with(x, y, begin, end)).walls(layout);
-}
-
-Shape polar_curve(const TableSpec& spec) {
-  return as_table(drawn_polar(formula(spec, "radius", "\"1 + 0.5*cos(phi)\""), {}, {}));
-}
-
-Shape parametric_curve(const TableSpec& spec) {
-  return as_table(drawn_parametric(formula(spec, "x", "\"2*cos(t)\""),
-                                   formula(spec, "y", "\"sin(t) + 0.3*cos(2*t)\""),
-                                   given(spec, "from"), given(spec, "to"), {}));
+  return drawn(parametric_with(x, y, from, to), layout);
 }
 
 namespace {
-Shape polar_of(const TableSpec& spec, const std::string& radius, const Numbers& numbers) {
-  return as_table(Drawing(polar_with({radius, spec.shape_place}, numbers)).walls({}));
-}
-Shape parametric_of(const TableSpec& spec, const char* x, const char* y, const Numbers& numbers) {
-  const Place& place = spec.shape_place;
-  return as_table(Drawing(parametric_with({x, place}, {y, place}, 0.0, two_pi, numbers)).walls({}));
-}
 /// A number whose absolute value is below a bound, which is written as `text`.
-double below(const TableSpec& spec, const char* key, double bound, const char* text) {
+const ExactNumber& below(const TableSpec& spec, const char* key, double bound, const char* text) {
   const ExactNumber& value = number(spec, key);
-  const double x = value.to_double();
-  if (std::fabs(x) < bound) return x;
+  if (std::fabs(value.to_double()) < bound) return value;
   throw InputError(value.place(),
                    std::string("'") + key + "' is " + value.text() +
                        ", from where on the curve has a cusp or crosses itself",
@@ -295,42 +279,85 @@ std::uint64_t whole(const TableSpec& spec, const char* key, std::uint64_t low, s
                    std::string(step == 2 ? "an even" : "a whole") + " number from " +
                        std::to_string(low) + " to " + std::to_string(high));
 }
-}  // namespace
 
-Shape cardioid(const TableSpec& spec) {
+/// A length that has been checked.
+ExactNumber length(const TableSpec& spec, const char* key) {
+  size(spec, key);
+  return number(spec, key);
+}
+
+CurveFormulas cardioid(const TableSpec& spec) {
   // From cusp to cusp.
-  return parametric_of(spec, "R*(cos(t) - 1)*cos(t)", "R*(cos(t) - 1)*sin(t)",
-                       {{"R", size(spec, "radius")}});
+  return {false,
+          {"R*(cos(t) - 1)*cos(t)", spec.shape_place},
+          {"R*(cos(t) - 1)*sin(t)", spec.shape_place},
+          {{"R", length(spec, "radius")}}};
 }
-
-Shape limacon(const TableSpec& spec) {
-  return polar_of(spec, "R*(1 + eps*cos(phi))",
-                  {{"R", size(spec, "radius")}, {"eps", below(spec, "epsilon", 1.0, "1")}});
+CurveFormulas limacon(const TableSpec& spec) {
+  return {true,
+          {"R*(1 + eps*cos(phi))", spec.shape_place},
+          {},
+          {{"R", length(spec, "radius")}, {"eps", below(spec, "epsilon", 1.0, "1")}}};
 }
-
-Shape flower(const TableSpec& spec) {
-  return polar_of(spec, "R*(1 + eps*cos(n*phi))",
-                  {{"R", size(spec, "radius")},
-                   {"eps", below(spec, "epsilon", 1.0, "1")},
-                   {"n", static_cast<double>(whole(spec, "petals", 1, 100, 1))}});
+CurveFormulas flower(const TableSpec& spec) {
+  return {true,
+          {"R*(1 + eps*cos(n*phi))", spec.shape_place},
+          {},
+          {{"R", length(spec, "radius")},
+           {"eps", below(spec, "epsilon", 1.0, "1")},
+           {"n", static_cast<double>(whole(spec, "petals", 1, 100, 1))}}};
 }
-
-Shape superellipse(const TableSpec& spec) {
+CurveFormulas superellipse(const TableSpec& spec) {
   // An exponent that is a number in the formula is a product, which a negative number has, too.
   const std::string n = std::to_string(whole(spec, "exponent", 2, 20, 2));
-  return polar_of(spec, "((cos(phi)/a)^" + n + " + (sin(phi)/b)^" + n + ")^(-1/" + n + ")",
-                  {{"a", size(spec, "a")}, {"b", size(spec, "b")}});
+  return {true,
+          {"((cos(phi)/a)^" + n + " + (sin(phi)/b)^" + n + ")^(-1/" + n + ")", spec.shape_place},
+          {},
+          {{"a", length(spec, "a")}, {"b", length(spec, "b")}}};
+}
+CurveFormulas robnik(const TableSpec& spec) {
+  return {false,
+          {"R*(cos(t) + k*cos(2*t))", spec.shape_place},
+          {"R*(sin(t) + k*sin(2*t))", spec.shape_place},
+          {{"R", length(spec, "radius")}, {"k", below(spec, "lambda", 0.5, "1/2")}}};
+}
+CurveFormulas egg(const TableSpec& spec) {
+  return {false,
+          {"a*cos(t)", spec.shape_place},
+          {"b*sin(t)*(1 + eps*cos(t))", spec.shape_place},
+          {{"a", length(spec, "a")},
+           {"b", length(spec, "b")},
+           {"eps", below(spec, "epsilon", 1.0, "1")}}};
+}
+CurveFormulas polar(const TableSpec& spec) {
+  return {true, formula(spec, "radius", "\"1 + 0.5*cos(phi)\"")};
+}
+CurveFormulas parametric(const TableSpec& spec) {
+  return parametric_with(formula(spec, "x", "\"2*cos(t)\""),
+                         formula(spec, "y", "\"sin(t) + 0.3*cos(2*t)\""), given(spec, "from"),
+                         given(spec, "to"));
 }
 
-Shape robnik(const TableSpec& spec) {
-  return parametric_of(spec, "R*(cos(t) + k*cos(2*t))", "R*(sin(t) + k*sin(2*t))",
-                       {{"R", size(spec, "radius")}, {"k", below(spec, "lambda", 0.5, "1/2")}});
+const std::pair<const char*, CurveFormulas (*)(const TableSpec&)> curves[] = {
+    {"polar", polar},       {"parametric", parametric},
+    {"cardioid", cardioid}, {"limacon", limacon},
+    {"flower", flower},     {"superellipse", superellipse},
+    {"robnik", robnik},     {"egg", egg}};
+
+}  // namespace
+
+std::optional<CurveFormulas> formulas_of(const TableSpec& spec) {
+  for (const auto& [name, curve] : curves)
+    if (spec.shape == name) return curve(spec);
+  return {};
 }
 
-Shape egg(const TableSpec& spec) {
-  return parametric_of(
-      spec, "a*cos(t)", "b*sin(t)*(1 + eps*cos(t))",
-      {{"a", size(spec, "a")}, {"b", size(spec, "b")}, {"eps", below(spec, "epsilon", 1.0, "1")}});
+Shape curve_of_formulas(const TableSpec& spec) {
+  ClosedCurve curve = drawn(*formulas_of(spec), {});
+  Shape shape;
+  shape.loops.push_back(std::move(curve.chain));
+  shape.curve_errors = curve.errors;
+  return shape;
 }
 
 }  // namespace carom::table::shapes

@@ -107,19 +107,10 @@ void set_lattice(Table&, const LatticeSpec&, geometry::Vector centre);
 void repeat(const LatticeSpec&, Table&);
 
 Shape path(const TableSpec&);
-/// A curve r(phi) about the origin, as Bézier curves.
-Shape polar_curve(const TableSpec&);
-/// A closed curve x(t), y(t), as Bézier curves.
-Shape parametric_curve(const TableSpec&);
+/// A closed curve r(phi), or x(t) and y(t), typed or with a name of its own, as Bézier curves.
+Shape curve_of_formulas(const TableSpec&);
 /// The closed curve on which a formula of x and y vanishes.
 Shape implicit_curve(const TableSpec&);
-/// Curves with a name, by their formulas.
-Shape cardioid(const TableSpec&);
-Shape limacon(const TableSpec&);
-Shape flower(const TableSpec&);
-Shape superellipse(const TableSpec&);
-Shape robnik(const TableSpec&);
-Shape egg(const TableSpec&);
 /// The periodic cubic spline through points, twice continuously differentiable.
 Shape spline_curve(const TableSpec&);
 

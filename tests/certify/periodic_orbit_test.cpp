@@ -8,6 +8,7 @@
 
 #include "carom/analyses/orbits.hpp"
 #include "carom/files/system_file.hpp"
+#include "certify/flight/beside_curve.hpp"
 
 namespace carom {
 namespace {
@@ -26,7 +27,11 @@ const char* const systems[] = {
     "[table]\nshape = \"stadium\"\nhalf_length = 1\nradius = 1\n",
     "[table]\nshape = \"ellipse\"\na = 1\nb = \"3/4\"\n[field]\nlarmor_radius = 3\n",
     "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = 0.5075\n",
-    "[table]\nshape = \"sinai\"\nside = 1\nradius = 0.4\n[field]\nB = -0.7\n"};
+    "[table]\nshape = \"sinai\"\nside = 1\nradius = 0.4\n[field]\nB = -0.7\n",
+    "[table]\nshape = \"limacon\"\nradius = 1\nepsilon = 0.3\n",
+    "[table]\nshape = \"parametric\"\nx = \"1.5*sin(t) + 0.1\"\ny = \"cos(t) + 0.2*cos(2*t)\"\n",
+    "[table]\nshape = \"robnik\"\nradius = 1\nlambda = 0.2\n[field]\nB = 0.3\n",
+    "[table]\nshape = \"flower\"\nradius = 1\nepsilon = 0.1\npetals = 3\n[field]\nB = -0.4\n"};
 
 // Two ways to the same numbers: doubles with the tangent maps of flights and reflections, and balls
 // with the closed form across the orbit.
@@ -66,6 +71,36 @@ TEST(CertifiedPeriodicOrbit, HasTheDigitsOfClosedForms) {
   ASSERT_TRUE(triangle.proven) << triangle.reason;
   // 18 - 3 sqrt(3).
   EXPECT_EQ(triangle.period.text(30), "12.803847577293368119417660975482");
+}
+
+TEST(CertifiedPeriodicOrbit, FollowsTheCurveAsItIsWritten) {
+  const LoadedSystem cardioid = read_system("[table]\nshape = \"cardioid\"\nradius = 1\n", "test");
+  const OrbitSearchResult found =
+      find_orbits(cardioid.system, {.most_hits = 4, .starts = 2000, .tries = 100});
+  ASSERT_EQ(found.orbits.size(), 4U);
+  const CertifiedPeriodicOrbit first = certify_orbit(cardioid.exact, near(found.orbits[0]), 50),
+                               last = certify_orbit(cardioid.exact, near(found.orbits[3]), 50);
+  // 3 sqrt(3) and 16 / sqrt(3): closer than the pieces are to the curve.
+  EXPECT_EQ(first.length.text(50), "5.19615242270663188058233902451761710082841576143114");
+  EXPECT_EQ(first.multiplier.text(30), "4.000000000000000000000000000000");
+  EXPECT_EQ(last.length.text(50), "9.23760430703401223214638048803131929036162802032203");
+}
+
+TEST(CertifiedPeriodicOrbit, SeesTheCurveInTheWay) {
+  TableSpec spec;
+  spec.shape = "flower";
+  spec.numbers = {
+      {"radius", ExactNumber("1")}, {"epsilon", ExactNumber("0.8")}, {"petals", ExactNumber("2")}};
+  const certify::CurveOfFormulas curve(*table::shapes::formulas_of(spec));
+  const certify::Precision precision(128);
+  const auto is_free = [&](double from, double to) {
+    const certify::Ball s(from), t(to);
+    return certify::meets_nowhere_else(curve, {curve.at(s).point, curve.at(t).point}, s, t);
+  };
+  EXPECT_TRUE(is_free(0.25, -0.25));
+  EXPECT_TRUE(is_free(0.25, 3.25));
+  EXPECT_FALSE(is_free(0.25, 2.75));  // over the waist
+  EXPECT_FALSE(is_free(0.5, 2.0));
 }
 
 TEST(CertifiedPeriodicOrbit, RefusesWhatIsNone) {

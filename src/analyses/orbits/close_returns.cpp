@@ -26,9 +26,10 @@ struct Recurrence {
   }
 };
 
-std::vector<int> least_rotation(const Chain& chain) {
+std::vector<int> least_rotation(const Boundary& boundary, const Chain& chain) {
   std::vector<int> word, least;
-  for (const Link& link : chain) word.push_back(link.wall);
+  for (const Link& link : chain)
+    word.push_back(boundary.curves[static_cast<std::size_t>(link.wall)]);
   least = word;
   for (std::size_t i = 1; i < word.size(); ++i) {
     std::rotate(word.begin(), word.begin() + 1, word.end());
@@ -55,7 +56,7 @@ class Recurrences : public Listener {
     if (plan_.progress) plan_.progress(++ended_, plan_.starts);
     const std::vector<State>& states = states_[t.slot];
     for (std::size_t n = plan_.fewest_hits; n < states.size(); ++n)
-      if (states[n].wall == states[0].wall) add(t.number, states, n);
+      if (curve_of(states[n]) == curve_of(states[0])) add(t.number, states, n);
   }
 
   /// In turn the closest, second closest … of each sequence of walls.
@@ -79,6 +80,7 @@ class Recurrences : public Listener {
   }
 
  private:
+  int curve_of(const State& s) const { return boundary_.curves[static_cast<std::size_t>(s.wall)]; }
   void add(std::uint64_t trajectory, const std::vector<State>& states, std::size_t n) {
     const Vector apart = (1.0 / boundary_.size) * (states[n].position - states[0].position);
     const Vector turned =
@@ -95,7 +97,7 @@ class Recurrences : public Listener {
       link.step = {to.cell.first - from.cell.first, to.cell.second - from.cell.second};
       chain.push_back(link);
     }
-    std::vector<Recurrence>& list = of_length_[n][least_rotation(chain)];
+    std::vector<Recurrence>& list = of_length_[n][least_rotation(boundary_, chain)];
     list.push_back({distance, trajectory, std::move(chain)});
     if (list.size() < 2 * plan_.tries) return;
     const auto last = list.begin() + static_cast<std::ptrdiff_t>(plan_.tries);
