@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/formula_words.hpp"
 #include "carom/base/exact_number.hpp"
 #include "forces/formula.hpp"
-#include "forces/formula_words.hpp"
 
 namespace carom::forces::formula {
 namespace {
@@ -23,10 +23,18 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
+/// Both lists have the same order.
+constexpr Operation operation_of(base::FormulaFunction function) {
+  return static_cast<Operation>(static_cast<int>(Operation::root) + static_cast<int>(function));
+}
+static_assert(operation_of(base::FormulaFunction::root) == Operation::root);
+static_assert(operation_of(base::FormulaFunction::abs) == Operation::abs);
+static_assert(operation_of(base::FormulaFunction::greatest) == Operation::greatest);
+
 class Typed {
  public:
   using Value = Part;
-  static constexpr const base::Dialect& dialect = formula::dialect;
+  static constexpr const base::Dialect& dialect = base::formula_dialect;
 
   Typed(std::span<const std::string> variables, const std::map<std::string, double>& parameters)
       : variables_(variables), parameters_(parameters), builder_(variables.size()) {}
@@ -39,7 +47,7 @@ class Typed {
     for (const auto& [name, value] : parameters_) {
       const bool variable =
           std::find(variables_.begin(), variables_.end(), name) != variables_.end();
-      if (variable || is_constant(name) || function_named(name)) {
+      if (variable || is_constant(name) || base::formula_word(name) != nullptr) {
         throw InputError(place, "the name of parameter '" + name + "' is taken", "another name");
       }
       const bool typable = !name.empty() && letter(name.front()) &&
@@ -75,12 +83,9 @@ class Typed {
   Part power(Part a, Part b) {
     return checked([&] { return builder_.power(a, b); });
   }
-  static int arguments_of(const std::string& word) {
-    const Function* function = function_named(word);
-    return function == nullptr ? 0 : function->arguments;
-  }
+  static int arguments_of(const std::string& word) { return base::arguments_of_formula_word(word); }
   Part call(const std::string& word, const std::vector<Part>& of) {
-    const Operation operation = function_named(word)->operation;
+    const Operation operation = operation_of(base::formula_word(word)->function);
     return checked([&] {
       return of.size() == 1 ? builder_.unary(operation, of[0])
                             : builder_.binary(operation, of[0], of[1]);
@@ -97,7 +102,7 @@ class Typed {
     std::vector<std::string> values = variables(), all;
     for (const auto& p : parameters_) values.push_back(p.first);
     for (const auto& c : constants) values.emplace_back(c.first);
-    for (const Function& f : functions) all.emplace_back(f.name);
+    for (const base::FormulaWord& w : base::formula_words) all.emplace_back(w.name);
     if (called)
       throw Fault{"unknown function '" + word + "'", joined(all), nearest_name(word, all)};
     if (word == "inf" || word == "nan" || word == "infinity")

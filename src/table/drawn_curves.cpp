@@ -329,20 +329,20 @@ CurveFormulas egg(const TableSpec& spec) {
            {"b", length(spec, "b")},
            {"eps", below(spec, "epsilon", 1.0, "1")}}};
 }
-CurveFormulas polar(const TableSpec& spec) {
+CurveFormulas typed_radius(const TableSpec& spec) {
   return {true, formula(spec, "radius", "\"1 + 0.5*cos(phi)\"")};
 }
-CurveFormulas parametric(const TableSpec& spec) {
+CurveFormulas typed_coordinates(const TableSpec& spec) {
   return parametric_with(formula(spec, "x", "\"2*cos(t)\""),
                          formula(spec, "y", "\"sin(t) + 0.3*cos(2*t)\""), given(spec, "from"),
                          given(spec, "to"));
 }
 
 const std::pair<const char*, CurveFormulas (*)(const TableSpec&)> curves[] = {
-    {"polar", polar},       {"parametric", parametric},
-    {"cardioid", cardioid}, {"limacon", limacon},
-    {"flower", flower},     {"superellipse", superellipse},
-    {"robnik", robnik},     {"egg", egg}};
+    {"polar", typed_radius}, {"parametric", typed_coordinates},
+    {"cardioid", cardioid},  {"limacon", limacon},
+    {"flower", flower},      {"superellipse", superellipse},
+    {"robnik", robnik},      {"egg", egg}};
 
 }  // namespace
 

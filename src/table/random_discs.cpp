@@ -5,6 +5,7 @@
 #include "carom/base/random.hpp"
 #include "carom/base/whole_number.hpp"
 #include "carom/geometry/lattice.hpp"
+#include "table/flat_arcs.hpp"
 #include "table/numbers.hpp"
 #include "table/shapes.hpp"
 
@@ -129,6 +130,12 @@ Shape random_discs(const TableSpec& spec) {
                      "the discs would fill more of the square than discs placed one after the "
                      "other can",
                      "fewer or smaller discs: at most about half of the area");
+  // Discs that no place in the square allows are refused before any is placed.
+  Wall first;
+  first.name = "disc_1";
+  first.curve = Circle{{0.5 * side, 0.5 * side}, radius, false};
+  if (const Misplaced found = misplaced(first, {side, 0.5 * side}); !found.fault.empty())
+    throw InputError(radius_number.place(), found.fault, found.expected);
   // Between walls a disc keeps off them by the margin that it keeps from others.
   const double margin = spec.torus ? 0.0 : radius + rounding * side;
   Arrangement arrangement(side, radius, count, spec.torus);

@@ -87,7 +87,9 @@ TEST(Chain, TheActionIsStationaryWhereTheLawOfReflectionHolds) {
     const auto action = [&](std::size_t i, double by) {
       Chain moved = chain;
       bool left = false;
-      moved[i].u = moved_along(boundary, chain[i].wall, chain[i].u, by, left);
+      const WallPlace place = moved_along(boundary, {chain[i].wall, chain[i].u}, by, left);
+      moved[i].wall = place.wall;
+      moved[i].u = place.u;
       // Flights of the particle's curvature between the new places.
       const ChainGeometry g = geometry_of(boundary, moved);
       for (std::size_t f = 0; k > 0.0 && f < moved.size(); ++f) {
@@ -137,6 +139,31 @@ TEST(Words, AreCountedByNecklaces) {
     });
     EXPECT_EQ(count, counts[n - 2]) << n;
   }
+}
+
+// Along a curve of many pieces: there and back, and once round; not over a corner.
+TEST(Boundary, StepsLeadFromPieceToPiece) {
+  const MadeTable made = limacon(1, 0.5);
+  const Boundary boundary(*made.table, {.speed = 1.0});
+  double perimeter = 0.0;
+  for (const auto& frame : boundary.frames) perimeter += geometry::length(frame);
+  ASSERT_GT(boundary.frames.size(), 100U);
+  bool left = false;
+  const WallPlace start{7, 0.25};
+  const auto at = [&](const WallPlace& p) { return wall_point(boundary, p.wall, p.u).position; };
+  for (const double by : {0.3, -2.5, perimeter - 1.0}) {
+    const WallPlace there = moved_along(boundary, start, by, left);
+    EXPECT_NE(there.wall, start.wall);
+    EXPECT_LT(length(at(moved_along(boundary, there, -by, left)) - at(start)), 1e-13);
+  }
+  EXPECT_LT(length(at(moved_along(boundary, start, perimeter, left)) - at(start)), 1e-12);
+  EXPECT_FALSE(left);
+  EXPECT_EQ(boundary.curves.front(), boundary.curves.back());
+
+  const MadeTable cusped = cardioid(1);
+  const Boundary with_cusp(*cusped.table, {.speed = 1.0});
+  moved_along(with_cusp, {3, 0.5}, -2.0, left);
+  EXPECT_TRUE(left);
 }
 
 }  // namespace

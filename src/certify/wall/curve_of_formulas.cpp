@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "base/formula_words.hpp"
 #include "certify/number/exact_value.hpp"
-#include "forces/formula_words.hpp"
 
 namespace carom::certify {
 namespace {
 
-using forces::formula::Operation;
+using Function = base::FormulaFunction;
 
 Ball indeterminate() {
   Ball r;
@@ -64,38 +64,38 @@ Jet power(const Jet& a, const Ball& exponent) {
   return chain(a, term(1, exponent), term(slope, less), term(bend, less - Ball(1)));
 }
 
-Jet of_one(Operation operation, const Jet& a) {
+Jet of_one(Function function, const Jet& a) {
   const slong bits = Precision::bits();
   Ball f, g;
-  switch (operation) {
-    case Operation::root:
+  switch (function) {
+    case Function::root:
       arb_sqrt(f.raw(), a.value.raw(), bits);
       g = Ball(1) / (Ball(2) * f);
       return chain(a, f, g, -(g / (Ball(2) * a.value)));
-    case Operation::exp:
+    case Function::exp:
       arb_exp(f.raw(), a.value.raw(), bits);
       return chain(a, f, f, f);
-    case Operation::log:
+    case Function::log:
       arb_log(f.raw(), a.value.raw(), bits);
       g = Ball(1) / a.value;
       return chain(a, f, g, -square(g));
-    case Operation::sin:
+    case Function::sin:
       arb_sin_cos(f.raw(), g.raw(), a.value.raw(), bits);
       return chain(a, f, g, -f);
-    case Operation::cos:
+    case Function::cos:
       arb_sin_cos(f.raw(), g.raw(), a.value.raw(), bits);
       return chain(a, g, -f, -g);
-    case Operation::tan:
+    case Function::tan:
       arb_tan(f.raw(), a.value.raw(), bits);
       g = Ball(1) + square(f);
       return chain(a, f, g, Ball(2) * (f * g));
-    case Operation::sinh:
+    case Function::sinh:
       arb_sinh_cosh(f.raw(), g.raw(), a.value.raw(), bits);
       return chain(a, f, g, f);
-    case Operation::cosh:
+    case Function::cosh:
       arb_sinh_cosh(f.raw(), g.raw(), a.value.raw(), bits);
       return chain(a, g, f, g);
-    case Operation::tanh:
+    case Function::tanh:
       arb_tanh(f.raw(), a.value.raw(), bits);
       g = Ball(1) - square(f);
       return chain(a, f, g, Ball(-2) * (f * g));
@@ -107,12 +107,12 @@ Jet of_one(Operation operation, const Jet& a) {
   }
 }
 
-Jet of_two(Operation operation, const Jet& a, const Jet& b) {
-  if (operation != Operation::atan2) {
+Jet of_two(Function function, const Jet& a, const Jet& b) {
+  if (function != Function::atan2) {
     const Sign order = sign(a.value - b.value);
     if (order == Sign::undecided || order == Sign::zero)
       return without_derivatives(indeterminate());
-    return (order == Sign::negative) == (operation == Operation::least) ? a : b;
+    return (order == Sign::negative) == (function == Function::least) ? a : b;
   }
   // Of y = a and x = b. It jumps where y = 0 > x.
   if (sign(b.value) != Sign::positive && sign(a.value) != Sign::positive &&
@@ -134,7 +134,7 @@ Jet of_two(Operation operation, const Jet& a, const Jet& b) {
 class InBalls {
  public:
   using Value = Jet;
-  static constexpr const base::Dialect& dialect = forces::formula::dialect;
+  static constexpr const base::Dialect& dialect = base::formula_dialect;
 
   InBalls(const char* name, const Jet& variable, const std::map<std::string, ExactNumber>& numbers)
       : name_(name), variable_(variable), numbers_(numbers) {}
@@ -147,7 +147,7 @@ class InBalls {
   static Jet negative(const Jet& a) { return -a; }
   static Jet power(const Jet& a, const Jet& b) {
     if (b.constant) return certify::power(a, b.value);
-    return of_one(Operation::exp, b * of_one(Operation::log, a));
+    return of_one(Function::exp, b * of_one(Function::log, a));
   }
   static Jet decimal(std::string_view text) { return {value_of(ExactNumber(text))}; }
   Jet named(const std::string& word, bool) const {
@@ -161,13 +161,10 @@ class InBalls {
       arb_const_e(r.value.raw(), Precision::bits());
     return r;
   }
-  static int arguments_of(const std::string& word) {
-    const auto* function = forces::formula::function_named(word);
-    return function == nullptr ? 0 : function->arguments;
-  }
+  static int arguments_of(const std::string& word) { return base::arguments_of_formula_word(word); }
   static Jet call(const std::string& word, const std::vector<Jet>& of) {
-    const Operation operation = forces::formula::function_named(word)->operation;
-    return of.size() == 1 ? of_one(operation, of[0]) : of_two(operation, of[0], of[1]);
+    const Function function = base::formula_word(word)->function;
+    return of.size() == 1 ? of_one(function, of[0]) : of_two(function, of[0], of[1]);
   }
 
  private:
@@ -185,7 +182,7 @@ struct Repetition {
 class Repeats {
  public:
   using Value = Repetition;
-  static constexpr const base::Dialect& dialect = forces::formula::dialect;
+  static constexpr const base::Dialect& dialect = base::formula_dialect;
 
   Repeats(const char* name, const std::map<std::string, ExactNumber>& numbers)
       : name_(name), numbers_(numbers) {}
@@ -208,7 +205,7 @@ class Repeats {
     const auto found = numbers_.find(word);
     return found == numbers_.end() ? Repetition{} : number(found->second);
   }
-  static int arguments_of(const std::string& word) { return InBalls::arguments_of(word); }
+  static int arguments_of(const std::string& word) { return base::arguments_of_formula_word(word); }
   static Repetition call(const std::string& word, const std::vector<Repetition>& of) {
     const bool turns = word == "sin" || word == "cos" || word == "tan";
     if (turns && of[0].kind == Repetition::multiple) return {Repetition::periodic};
@@ -264,8 +261,8 @@ CurvePlace CurveOfFormulas::at(const Ball& t) const {
   Jet x, y;
   if (written_.polar) {
     const Jet radius = value(written_.first);
-    x = radius * of_one(Operation::cos, parameter);
-    y = radius * of_one(Operation::sin, parameter);
+    x = radius * of_one(Function::cos, parameter);
+    y = radius * of_one(Function::sin, parameter);
   } else {
     x = value(written_.first);
     y = value(written_.second);
