@@ -6,7 +6,7 @@
 
 #include "carom/base/error.hpp"
 #include "certify/attempt.hpp"
-#include "certify/number/enclosure_of.hpp"
+#include "certify/followed_orbit.hpp"
 #include "certify/number/exact_value.hpp"
 #include "certify/wall/system_check.hpp"
 
@@ -17,20 +17,9 @@ namespace {
 using certify::BallState;
 using certify::Outcome;
 
-void fill(CertifiedState& state, BallState s) {
-  state.t = certify::number_of(std::move(s.time));
-  state.x = certify::number_of(std::move(s.position.x));
-  state.y = certify::number_of(std::move(s.position.y));
-  state.vx = certify::number_of(std::move(s.velocity.x));
-  state.vy = certify::number_of(std::move(s.velocity.y));
-}
-
-}  // namespace
-
-class CertifiedOrbit::Implementation {
+class WallOrbit final : public certify::FollowedOrbit {
  public:
-  Implementation(const ExactSystem& system, const CertifiedTask& task,
-                 std::function<bool()> interrupted)
+  WallOrbit(const ExactSystem& system, const CertifiedTask& task, std::function<bool()> interrupted)
       : system_(system), task_(task), interrupted_(std::move(interrupted)) {
     if (task.collisions == 0 && !task.t_max)
       throw InputError(Place{}, "a certified orbit without an end",
@@ -63,7 +52,7 @@ class CertifiedOrbit::Implementation {
                               scout.size_bits()));
   }
 
-  std::optional<CertifiedHit> next() {
+  std::optional<CertifiedHit> next() override {
     if (done_) return std::nullopt;
     for (;;) {
       if (task_.collisions > 0 && attempt_->hits() >= task_.collisions) {
@@ -82,7 +71,7 @@ class CertifiedOrbit::Implementation {
           given_ = attempt_->hits();
           undecided_ = 0;
           CertifiedHit hit;
-          fill(hit, std::move(state_));
+          certify::fill(hit, std::move(state_));
           hit.number = given_;
           hit.wall = attempt_->wall();
           hit.cell = attempt_->cell();
@@ -140,8 +129,8 @@ class CertifiedOrbit::Implementation {
     }
   }
 
-  const CertifiedEnd& end() const { return end_; }
-  const CertifiedEffort& effort() {
+  const CertifiedEnd& end() const override { return end_; }
+  const CertifiedEffort& effort() override {
     if (!done_ && attempt_) effort_.tangent_bits = attempt_->lost_bits();
     return effort_;
   }
@@ -318,7 +307,7 @@ class CertifiedOrbit::Implementation {
     end_.wall = attempt_->wall();
     end_.hole = attempt_->hole();
     end_.cell = attempt_->cell();
-    fill(end_, std::move(s));
+    certify::fill(end_, std::move(s));
   }
 
   // With the last hit that was given out: the present attempt may not have come back to it, or not
@@ -338,7 +327,7 @@ class CertifiedOrbit::Implementation {
       const bool accurate = attempt_->missing_bits(s) <= 0.0;
       if (!accurate && bits < task_.most_bits) continue;
       end_.wall = attempt_->wall();
-      fill(end_, std::move(s));
+      certify::fill(end_, std::move(s));
       return;
     }
   }
@@ -381,10 +370,16 @@ class CertifiedOrbit::Implementation {
   CertifiedEffort effort_;
 };
 
+}  // namespace
+
 CertifiedOrbit::CertifiedOrbit(const ExactSystem& system, const CertifiedTask& task,
                                std::function<bool()> interrupted) {
   if (system.table) refuse_all_but_mirrors(*system.table, "guaranteed digits");
-  implementation_ = std::make_unique<Implementation>(system, task, std::move(interrupted));
+  if (auto curve = certify::CurveOfFormulas::of(*system.spec))
+    implementation_ =
+        certify::orbit_along_curve(system, task, std::move(interrupted), std::move(*curve));
+  else
+    implementation_ = std::make_unique<WallOrbit>(system, task, std::move(interrupted));
 }
 CertifiedOrbit::~CertifiedOrbit() = default;
 CertifiedOrbit::CertifiedOrbit(CertifiedOrbit&&) noexcept = default;

@@ -40,12 +40,8 @@ BallVector scaled(const Ball& s, const BallVector& v) { return {s * v.x, s * v.y
 using Place = CurvePlace;
 class Path {
  public:
-  /// `along` the piece's chord the domain lies to the left.
-  Path(const CurveOfFormulas& curve, geometry::Vector near, geometry::Vector along)
-      : curve_(&curve), near_(nearest(near)) {
-    const geometry::Vector first = middle(curve.at(Ball(near_)).first);
-    turn = dot(first, along) < 0.0 ? -1.0 : 1.0;
-  }
+  Path(const CurveOfFormulas& curve, double near)
+      : turn(curve.turn()), curve_(&curve), near_(near) {}
   explicit Path(const WallOf<Ball>& wall) : straight_(wall.form == Form::segment) {
     turn = wall.turn;
     if (straight_) {
@@ -84,26 +80,6 @@ class Path {
   double turn = 1.0;  ///< -1: arc length runs against t
 
  private:
-  /// By looking at many points, and a few of Newton's steps from the nearest.
-  double nearest(geometry::Vector p) const {
-    constexpr int looks = 2048;
-    const double from = curve_->from().to_double(), length = curve_->length().to_double();
-    double best = from, least = HUGE_VAL;
-    for (int k = 0; k < looks; ++k) {
-      const double t = from + length * k / looks;
-      const geometry::Vector e = middle(curve_->at(Ball(t)).point) - p;
-      if (!(dot(e, e) < least)) continue;
-      best = t;
-      least = dot(e, e);
-    }
-    for (int n = 0; n < 8; ++n) {
-      const Place here = curve_->at(Ball(best));
-      const geometry::Vector e = middle(here.point) - p, first = middle(here.first);
-      best -= dot(e, first) / (dot(first, first) + dot(e, middle(here.second)));
-    }
-    return best;
-  }
-
   const CurveOfFormulas* curve_ = nullptr;  ///< or a wall's, which follows
   double near_ = 0.0;
   bool straight_ = false;
@@ -152,13 +128,11 @@ class Matrix {
 class Equations {
  public:
   Equations(const ExactSystem& system, const std::vector<NearHit>& hits)
-      : hits_(hits), curve_(curve_of(system)) {
+      : hits_(hits), curve_(CurveOfFormulas::of(*system.spec)) {
     const Ball omega = value_of(system.omega);
     if (curve_) {
-      for (const NearHit& hit : hits) {
-        const geometry::Curve& piece = system.table->wall(hit.wall).curve;
-        paths_.emplace_back(*curve_, hit.position, end_point(piece) - start_point(piece));
-      }
+      for (const NearHit& hit : hits)
+        paths_.emplace_back(*curve_, curve_->parameter(hit.wall, hit.u));
     } else {
       BallTable table = ball_table(*system.spec);
       where_ = whereabouts_of(table, omega);
@@ -310,14 +284,6 @@ class Equations {
   Ball speed;
 
  private:
-  /// Of an outer wall alone.
-  static std::optional<CurveOfFormulas> curve_of(const ExactSystem& system) {
-    const TableSpec& spec = *system.spec;
-    if (!spec.obstacles.empty() || spec.lattice) return {};
-    std::optional<table::shapes::CurveFormulas> written = table::shapes::formulas_of(spec);
-    if (!written) return {};
-    return CurveOfFormulas(std::move(*written));
-  }
   std::string obstacle_on_curve(const std::vector<Ball>& x, const At& a, std::size_t i) const {
     const std::size_t next = (i + 1) % hits_.size();
     const Flight& f = a.flights[i];

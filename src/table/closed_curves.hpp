@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "table/shapes.hpp"
@@ -15,6 +16,8 @@ namespace carom::table::shapes {
 struct ClosedCurve {
   Chain chain;
   CurveErrors errors = {};
+  /// Of formulas: the parameters where each wall begins and ends.
+  std::vector<std::pair<double, double>> parameters = {};
 };
 /// What its walls are called, STEM_1, STEM_2 …, and how they run.
 struct Layout {
@@ -32,6 +35,8 @@ struct CurveFormulas {
 };
 /// Of a shape whose outer wall is one; nothing of others.
 std::optional<CurveFormulas> formulas_of(const TableSpec&);
+
+ClosedCurve drawn(const CurveFormulas&, const Layout&);
 
 /// A curve r(phi) about a centre; names follow the walls.
 ClosedCurve drawn_polar(const WrittenFormula& radius, geometry::Vector centre, const Layout&);

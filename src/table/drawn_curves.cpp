@@ -113,10 +113,14 @@ class Drawing {
     Chain chain;
     for (const Bezier& piece : pieces_)
       chain.push_back({"", piece, chain.empty() && cusp ? 0 : smooth});
-    chain = turned(std::move(chain), layout.clockwise);
+    if ((area_of(chain) < 0.0) != layout.clockwise) {
+      std::reverse(parameters_.begin(), parameters_.end());
+      for (auto& [from, to] : parameters_) std::swap(from, to);
+      chain = reversed(std::move(chain));
+    }
     const std::vector<std::string> names = numbered(layout.stem, chain.size());
     for (std::size_t k = 0; k < chain.size(); ++k) chain[k].name = names[k];
-    return {std::move(chain), errors_};
+    return {std::move(chain), errors_, std::move(parameters_)};
   }
 
  private:
@@ -166,6 +170,7 @@ class Drawing {
       const CurveErrors errors = errors_between(a, piece, off);
       if (as_promised(errors, size_)) {
         pieces_.push_back(piece);
+        parameters_.emplace_back(a.at, b.at);
         include(errors_, errors);
         return;
       }
@@ -189,20 +194,9 @@ class Drawing {
   CurveErrors errors_;
   Jet gap_{};  ///< between the formulas' end and their start
   std::vector<Bezier> pieces_;
+  std::vector<std::pair<double, double>> parameters_;
 };
 
-ClosedCurve drawn(const CurveFormulas& curve, const Layout& layout) {
-  Numbers numbers;
-  for (const auto& [name, value] : curve.numbers) numbers.emplace(name, value.to_double());
-  const Place& place = curve.first.place;
-  if (curve.polar) return Drawing(Polar{place, parsed(curve.first, "phi", numbers)}).walls(layout);
-  const double from = curve.from.to_double(), to = curve.to.to_double();
-  if (!(to > from))
-    throw InputError(curve.to.place(), "'to' is not larger than 'from'", "from < to");
-  return Drawing(Parametric{place, parsed(curve.first, "t", numbers),
-                            parsed(curve.second, "t", numbers), from, to})
-      .walls(layout);
-}
 CurveFormulas parametric_with(const WrittenFormula& x, const WrittenFormula& y,
                               const std::optional<ExactNumber>& from,
                               const std::optional<ExactNumber>& to) {
@@ -226,6 +220,19 @@ std::optional<ExactNumber> given(const TableSpec& spec, const char* key) {
 }
 
 }  // namespace
+
+ClosedCurve drawn(const CurveFormulas& curve, const Layout& layout) {
+  Numbers numbers;
+  for (const auto& [name, value] : curve.numbers) numbers.emplace(name, value.to_double());
+  const Place& place = curve.first.place;
+  if (curve.polar) return Drawing(Polar{place, parsed(curve.first, "phi", numbers)}).walls(layout);
+  const double from = curve.from.to_double(), to = curve.to.to_double();
+  if (!(to > from))
+    throw InputError(curve.to.place(), "'to' is not larger than 'from'", "from < to");
+  return Drawing(Parametric{place, parsed(curve.first, "t", numbers),
+                            parsed(curve.second, "t", numbers), from, to})
+      .walls(layout);
+}
 
 ClosedCurve drawn_polar(const WrittenFormula& radius, Vector centre, const Layout& layout) {
   ClosedCurve curve = drawn({true, radius}, layout);

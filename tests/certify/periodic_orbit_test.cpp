@@ -16,8 +16,8 @@ namespace {
 std::vector<NearHit> near(const PeriodicOrbit& orbit) {
   std::vector<NearHit> hits;
   for (std::size_t i = 0; i < orbit.hits.size(); ++i)
-    hits.push_back(
-        {orbit.hits[i].wall, orbit.hits[i].position, orbit.half_turns[i], orbit.hits[i].step});
+    hits.push_back({orbit.hits[i].wall, orbit.hits[i].position, orbit.hits[i].u,
+                    orbit.half_turns[i], orbit.hits[i].step});
   return hits;
 }
 
@@ -110,7 +110,7 @@ TEST(CertifiedPeriodicOrbit, RefusesWhatIsNone) {
       "[table]\nshape = \"discs\"\ncenters = [[0, 0], [6, 0], [3, 0]]\nradius = 1\n[initial]\nkind "
       "= \"boundary\"\n",
       "test");
-  const std::vector<NearHit> hits{{0, {1.0, 0.0}, 0.0, {}}, {1, {5.0, 0.0}, 0.0, {}}};
+  const std::vector<NearHit> hits{{0, {1.0, 0.0}, 0.0, 0.0, {}}, {1, {5.0, 0.0}, 2.0, 0.0, {}}};
   EXPECT_TRUE(certify_orbit(loaded.exact, hits, 20).proven);
   const CertifiedPeriodicOrbit none = certify_orbit(row.exact, hits, 20);
   EXPECT_FALSE(none.proven);

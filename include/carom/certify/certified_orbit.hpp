@@ -16,6 +16,10 @@
 
 namespace carom {
 
+namespace certify {
+class FollowedOrbit;
+}
+
 /// A number together with what its error cannot exceed.
 class CertifiedNumber {
  public:
@@ -140,8 +144,7 @@ class CertifiedOrbit {
   std::default_sentinel_t end() const { return {}; }
 
  private:
-  class Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  std::unique_ptr<certify::FollowedOrbit> implementation_;
 };
 
 /// The first `collisions` hits of a system as its file gives it (LoadedSystem::exact, whose start

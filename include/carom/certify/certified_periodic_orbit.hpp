@@ -15,6 +15,7 @@ namespace carom {
 struct NearHit {
   int wall = 0;
   geometry::Vector position;  ///< in the home cell
+  double u = 0.0;             ///< its parameter on the wall
   double half_turn = 0.0;     ///< half the angle that the flight turns by; 0 without field
   geometry::Cell step;        ///< cells that it crosses
 };

@@ -51,7 +51,7 @@ ProofsOfOrbits proofs_of_orbits(const Options& options, const LoadedSystem& load
     std::vector<NearHit> hits;
     for (std::size_t i = 0; i < orbit.hits.size(); ++i) {
       const OrbitHit& hit = orbit.hits[i];
-      hits.push_back({hit.wall, hit.position, orbit.half_turns[i], hit.step});
+      hits.push_back({hit.wall, hit.position, hit.u, orbit.half_turns[i], hit.step});
     }
     all.orbits.push_back(proof_of(certify_orbit(loaded.exact, hits, all.digits), all.digits));
   }

@@ -1,21 +1,76 @@
 #include "certify/flight/beside_curve.hpp"
 
-#include <array>
-#include <cmath>
+#include <vector>
 
 namespace carom::certify {
 namespace {
 
+constexpr int most_halvings = 40;
+
+/// Of the points about the middle of a part of the curve's length.
+Ball parameter_of(const CurveOfFormulas& curve, double middle, double half) {
+  return curve.from() + Ball(middle).widened(Bound(half)) * curve.length();
+}
+
+/// Counts crossings of a ray from a point, by sides of it.
+class Winding {
+ public:
+  Winding(const CurveOfFormulas& curve, const BallVector& point) : curve_(curve), point_(point) {}
+
+  std::optional<int> find() {
+    const Sign side = side_at(0.0);
+    if (side == Sign::undecided || !count(0.0, side, 1.0, side, most_halvings)) return {};
+    return twice_ / 2;
+  }
+
+ private:
+  // In a direction that no curve has for its axis.
+  BallVector seen(const BallVector& x) const {
+    const BallVector e = x - point_, ray{Ball(0x1.8p0), Ball(0x1.1caf2p0)};
+    return {dot(ray, e), cross(ray, e)};
+  }
+  /// Of the ray. Behind its start any side will do.
+  Sign side_at(double share) const {
+    const BallVector e = seen(curve_.at(parameter_of(curve_, share, 0.0)).point);
+    const Sign side = sign(e.y);
+    if (side == Sign::positive || side == Sign::negative) return side;
+    return sign(e.x) == Sign::negative ? Sign::positive : Sign::undecided;
+  }
+  bool count(double a, Sign from, double b, Sign to, int depth) {
+    const BallVector e = seen(curve_.at(parameter_of(curve_, 0.5 * (a + b), 0.5 * (b - a))).point);
+    const Sign side = sign(e.y);
+    if (side == Sign::positive || side == Sign::negative || sign(e.x) == Sign::negative)
+      return true;
+    if (sign(e.x) == Sign::positive) {
+      twice_ += (to == Sign::positive ? 1 : -1) - (from == Sign::positive ? 1 : -1);
+      return true;
+    }
+    for (const double share : {0.5, 0.4375, 0.5625}) {
+      const double middle = a + share * (b - a);
+      const Sign there = side_at(middle);
+      if (depth == 0 || there == Sign::undecided) continue;
+      return count(a, from, middle, there, depth - 1) && count(middle, there, b, to, depth - 1);
+    }
+    return false;
+  }
+
+  const CurveOfFormulas& curve_;
+  const BallVector& point_;
+  int twice_ = 0;
+};
+
 class Search {
  public:
-  Search(const CurveOfFormulas& curve, const FlightBetween& flight, const Ball& first,
-         const Ball& last)
-      : curve_(curve), flight_(flight), ends_{first, last}, chord_(flight.to - flight.from) {}
+  Search(const CurveOfFormulas& curve, const FlightBetween& flight,
+         const std::optional<Ball>& first, const Ball& last)
+      : curve_(curve), flight_(flight), ends_{last}, chord_(flight.to - flight.from) {
+    if (first) ends_.push_back(*first);
+  }
 
   /// Is the part of the curve from a to b of its length off the flight, but for the ends?
   bool is_clear(double a, double b, int depth) const {
     const double middle = 0.5 * (a + b), half = 0.5 * (b - a);
-    const CurvePlace place = curve_.at(parameter(middle, half));
+    const CurvePlace place = curve_.at(parameter_of(curve_, middle, half));
     const BallVector e = place.point - flight_.from;
     const Sign side = sign(distance(place.point));
     if (side == Sign::positive || side == Sign::negative || is_beyond(e)) return true;
@@ -25,10 +80,6 @@ class Search {
   }
 
  private:
-  Ball parameter(double middle, double half) const {
-    const Ball share = Ball(middle).widened(Bound(half));
-    return curve_.from() + share * curve_.length();
-  }
   /// Zero on the line, or circle, of the flight.
   Ball distance(const BallVector& x) const {
     if (!flight_.turns) return cross(chord_, x - flight_.from);
@@ -50,7 +101,7 @@ class Search {
   /// it once where the distance only grows or only falls.
   bool passes_an_end(double middle, double half) const {
     if (!curve_.periodic() && !(middle - half >= 0.0 && middle + half <= 1.0)) return false;
-    const Ball about = parameter(middle, half), length = curve_.length();
+    const Ball about = parameter_of(curve_, middle, half), length = curve_.length();
     for (const Ball& end : ends_)
       for (const Ball& same : {end - length, end, end + length}) {
         if (!about.contains(same)) continue;
@@ -62,15 +113,19 @@ class Search {
 
   const CurveOfFormulas& curve_;
   const FlightBetween& flight_;
-  std::array<Ball, 2> ends_;
+  std::vector<Ball> ends_;
   BallVector chord_;
 };
 
 }  // namespace
 
+std::optional<int> turns_round(const CurveOfFormulas& curve, const BallVector& point) {
+  const Precision precision(128);
+  return Winding(curve, point).find();
+}
+
 bool meets_nowhere_else(const CurveOfFormulas& curve, const FlightBetween& flight,
-                        const Ball& first, const Ball& last) {
-  constexpr int most_halvings = 40;
+                        const std::optional<Ball>& first, const Ball& last) {
   const Precision precision(128);
   const Search search(curve, flight, first, last);
   return search.is_clear(0.0, 1.0, most_halvings);

@@ -250,7 +250,16 @@ bool repeats(const table::shapes::CurveFormulas& curve) {
 }  // namespace
 
 CurveOfFormulas::CurveOfFormulas(table::shapes::CurveFormulas written)
-    : written_(std::move(written)), periodic_(repeats(written_)) {}
+    : written_(std::move(written)),
+      periodic_(repeats(written_)),
+      parts_(table::shapes::drawn(written_, {}).parameters) {}
+
+std::optional<CurveOfFormulas> CurveOfFormulas::of(const TableSpec& spec) {
+  if (!spec.obstacles.empty() || spec.lattice) return {};
+  std::optional<table::shapes::CurveFormulas> written = table::shapes::formulas_of(spec);
+  if (!written) return {};
+  return CurveOfFormulas(std::move(*written));
+}
 
 CurvePlace CurveOfFormulas::at(const Ball& t) const {
   const Jet parameter = variable(t);

@@ -58,18 +58,6 @@ void check_walls(const ExactSystem& system) {
   }
 }
 
-void check_velocity(const ExactStart& start) {
-  if (start.angle) return;
-  const Sign x = sign_of(start.direction.x), y = sign_of(start.direction.y);
-  const auto moves = [](Sign s) { return s == Sign::positive || s == Sign::negative; };
-  if (moves(x) || moves(y)) return;
-  if (x == Sign::zero && y == Sign::zero)
-    throw InputError(start.direction.x.place(), "the velocity is zero",
-                     "a velocity that is not zero");
-  throw InputError(start.direction.x.place(), "the velocity cannot be told from zero",
-                   "another velocity");
-}
-
 void check_on_wall(const ExactSystem& system) {
   const ExactStart& start = system.start;
   const auto index = static_cast<std::size_t>(start.wall);
@@ -149,6 +137,18 @@ void check_inside(const ExactSystem& system) {
 }
 
 }  // namespace
+
+void check_velocity(const ExactStart& start) {
+  if (start.angle) return;
+  const Sign x = sign_of(start.direction.x), y = sign_of(start.direction.y);
+  const auto moves = [](Sign s) { return s == Sign::positive || s == Sign::negative; };
+  if (moves(x) || moves(y)) return;
+  if (x == Sign::zero && y == Sign::zero)
+    throw InputError(start.direction.x.place(), "the velocity is zero",
+                     "a velocity that is not zero");
+  throw InputError(start.direction.x.place(), "the velocity cannot be told from zero",
+                   "another velocity");
+}
 
 void check_system(const ExactSystem& system) {
   check_walls(system);

@@ -1,0 +1,309 @@
+// Certified orbits inside a curve that was written as formulas.
+//
+// A hit is known by the curve's parameter. Doubles find about where the next one is; Newton's steps
+// and one with balls enclose the zero of the flight's distance from the curve, and beside_curve.hpp
+// proves that it comes first. Where balls cannot tell, or are too wide for the digits, the orbit is
+// followed again from its exact start with more bits.
+#include <algorithm>
+#include <cmath>
+
+#include "carom/base/error.hpp"
+#include "certify/flight/beside_curve.hpp"
+#include "certify/followed_orbit.hpp"
+#include "certify/number/exact_value.hpp"
+#include "certify/wall/system_check.hpp"
+
+namespace carom::certify {
+namespace {
+
+constexpr double bits_a_digit = 3.3219280948873626;  // log2(10)
+
+BallVector scaled(const Ball& s, const BallVector& v) { return {s * v.x, s * v.y}; }
+geometry::Vector middle_of(const BallVector& v) { return {v.x.to_double(), v.y.to_double()}; }
+
+class CurveOrbit final : public FollowedOrbit {
+ public:
+  CurveOrbit(const ExactSystem& system, const CertifiedTask& task,
+             std::function<bool()> interrupted, CurveOfFormulas curve)
+      : system_(system),
+        task_(task),
+        interrupted_(std::move(interrupted)),
+        curve_(std::move(curve)) {
+    check();
+    const double hits = task_.collisions > 0 ? static_cast<double>(task_.collisions) : 16.0;
+    restart(static_cast<double>(task_.digits) * bits_a_digit + 64.0 + 4.0 * hits);
+  }
+
+  std::optional<CertifiedHit> next() override {
+    while (!done_) {
+      if (task_.collisions > 0 && hits_ >= task_.collisions) {
+        finish(CertifiedFate::completed, "");
+        break;
+      }
+      if (interrupted_ && interrupted_()) {
+        finish_as_given(CertifiedFate::interrupted, "");
+        break;
+      }
+      const Precision precision(bits_);
+      const Step step = take_step();
+      if (step == Step::stopped && is_accurate()) {
+        finish(CertifiedFate::completed, "");
+        break;
+      }
+      if (step != Step::hit || !(hits_ <= given_ || is_accurate())) {
+        ask_for_more(step);
+        continue;
+      }
+      if (hits_ <= given_) continue;  // given out by an earlier attempt
+      given_ = hits_;
+      CertifiedHit hit;
+      fill(hit, state());
+      hit.number = given_;
+      hit.wall = wall_;
+      last_ = hit;
+      return hit;
+    }
+    return std::nullopt;
+  }
+  const CertifiedEnd& end() const override { return end_; }
+  const CertifiedEffort& effort() override { return effort_; }
+
+ private:
+  enum class Step : unsigned char { hit, stopped, unclear };
+
+  void check() {
+    if (sign_of(system_.omega) != Sign::zero)
+      throw InputError(system_.omega.place(),
+                       "orbits along a curve given by formulas are not certified in a field",
+                       "no field, or walls of segments, circles and ellipses");
+    if (!system_.table->holes.empty())
+      throw InputError(Place{},
+                       "orbits along a curve given by formulas are certified without holes",
+                       "--closed");
+    check_velocity(system_.start);
+    if (system_.start.wall < 0) check_inside();
+  }
+  void check_inside() {
+    const ExactPoint& at = system_.start.position;
+    const Precision precision(bits_of_a_first_look);
+    const std::optional<int> turns = turns_round(curve_, {value_of(at.x), value_of(at.y)});
+    if (turns && *turns != 0) return;
+    throw InputError(at.x.place(),
+                     "the start (" + at.x.text() + ", " + at.y.text() + ") is " +
+                         (turns ? "not inside the table" : "on the wall, or too near to it"),
+                     "a point inside, off the walls");
+  }
+
+  void restart(double bits) {
+    bits_ = static_cast<slong>(bits);
+    if (bits_ > task_.most_bits)
+      return finish_as_given(CertifiedFate::undecided,
+                             "the requested digits need " + std::to_string(bits_) + " bits");
+    ++effort_.attempts;
+    effort_.bits = bits_;
+    hits_ = 0;
+    const Precision precision(bits_);
+    const ExactStart& start = system_.start;
+    time_ = Ball(0);
+    wall_ = start.wall;
+    u_ = start.u;
+    speed_ = value_of(system_.speed);
+    direction_ = {value_of(start.direction.x), value_of(start.direction.y)};
+    if (start.angle) {
+      const CosSin d = direction_of(*start.angle);
+      direction_ = {d.cos, d.sin};
+    } else {
+      const Ball length2 = dot(direction_, direction_);
+      effort_.rescaled = !(length2 - square(speed_)).contains(Ball(0));
+      direction_ = scaled(Ball(1) / sqrt(length2), direction_);
+    }
+    parameter_.reset();
+    if (wall_ < 0) {
+      position_ = {value_of(start.position.x), value_of(start.position.y)};
+      return;
+    }
+    parameter_ = Ball(curve_.parameter(wall_, u_));
+    const CurvePlace place = curve_.at(*parameter_);
+    position_ = place.point;
+    if (inwards(place.first) == Sign::negative)
+      throw InputError(Place{}, "the velocity does not point into the domain");
+  }
+
+  Sign inwards(const BallVector& tangent) const {
+    return sign(Ball(curve_.turn()) * cross(tangent, direction_));
+  }
+  BallState state() const { return {position_, scaled(speed_, direction_), time_}; }
+
+  /// log2 of the largest error of the state's numbers.
+  double log2_error() const {
+    const BallState s = state();
+    double worst = s.time.radius().log2();
+    for (const BallVector* v : {&s.position, &s.velocity})
+      worst = std::max({worst, v->x.radius().log2(), v->y.radius().log2()});
+    return worst;
+  }
+  double wanted() const { return -static_cast<double>(task_.digits) * bits_a_digit - 1.0; }
+  bool is_accurate() {
+    const double error = log2_error();
+    effort_.tangent_bits = std::max(0.0, error + static_cast<double>(bits_));
+    return error < wanted();
+  }
+
+  /// By what has been lost so far, and will be along the rest.
+  void ask_for_more(Step step) {
+    const double bits = static_cast<double>(bits_), flown = static_cast<double>(hits_);
+    double more = 0.3 * bits + 64.0;
+    if (flown > 8.0 && task_.collisions > 0)
+      more = std::max(more, effort_.tangent_bits / flown * static_cast<double>(task_.collisions) +
+                                64.0 - wanted() - bits);
+    if (step == Step::unclear && log2_error() < -1.5 * static_cast<double>(task_.most_bits_a_doubt))
+      return finish_as_given(CertifiedFate::undecided, "collision " + std::to_string(hits_ + 1) +
+                                                           " is not decided by " +
+                                                           std::to_string(bits_) + " bits");
+    restart(bits + more);
+  }
+
+  Step take_step() {
+    const std::optional<double> about = in_doubles();
+    if (!about) return Step::unclear;
+    const auto distance = [&](const BallVector& x) { return cross(direction_, x - position_); };
+    Ball at(*about);
+    for (double b = 30.0; b < 2.0 * static_cast<double>(bits_); b *= 2.0) {
+      const CurvePlace place = curve_.at(at);
+      at = (at - distance(place.point) / cross(direction_, place.first)).midpoint();
+    }
+    const CurvePlace there = curve_.at(at);
+    const Ball missed = distance(there.point);
+    Bound radius = size_of(missed / cross(direction_, there.first)) * Bound(2.0);
+    for (int attempt = 0; attempt < 4; ++attempt, radius = radius * Bound(16.0)) {
+      const Ball box = at.widened(radius);
+      const CurvePlace about_there = curve_.at(box);
+      const Ball hit = at - missed / cross(direction_, about_there.first);
+      if (!box.contains(hit)) continue;
+      // By their derivatives: formulas of balls are wider.
+      const Ball e = hit - at;
+      return arrive(hit, there.point + scaled(e, about_there.first),
+                    there.first + scaled(e, about_there.second));
+    }
+    return Step::unclear;
+  }
+
+  Step arrive(const Ball& hit, const BallVector& point, const BallVector& tangent) {
+    const BallVector chord = point - position_;
+    const Ball time = time_ + sqrt(dot(chord, chord)) / speed_;
+    if (inwards(tangent) != Sign::negative ||
+        !meets_nowhere_else(curve_, {position_, point}, parameter_, hit))
+      return Step::unclear;
+    if (task_.t_max) {
+      const Ball last = value_of(*task_.t_max), rest = last - time_;
+      const Sign later = sign(time - last);
+      if (later == Sign::undecided) return Step::unclear;
+      if (later == Sign::positive) {
+        position_ = position_ + scaled(rest * speed_, direction_);
+        time_ = last;
+        return Step::stopped;
+      }
+    }
+    const BallVector normal = left(tangent);
+    const Ball twice = (Ball(2) * dot(direction_, normal)) / dot(normal, normal);
+    direction_ = direction_ - scaled(twice, normal);
+    position_ = point;
+    parameter_ = hit;
+    time_ = time;
+    wall_ = next_wall_;
+    u_ = next_u_;
+    ++hits_;
+    return Step::hit;
+  }
+
+  /// About the parameter of the next hit: where the flight first leaves the polygon of the points
+  /// between pieces.
+  std::optional<double> in_doubles() {
+    const geometry::Vector P = middle_of(position_), d = middle_of(direction_);
+    double first = HUGE_VAL;
+    const auto offer = [&](int wall, double u, double along) {
+      if (!(along > 0.0 && along < first)) return;
+      first = along;
+      next_wall_ = wall;
+      next_u_ = u;
+    };
+    for (int k = 0; k < static_cast<int>(system_.table->walls.size()); ++k) {
+      const Wall& wall = system_.table->wall(k);
+      const geometry::Vector from = geometry::start_point(wall.curve) - P,
+                             to = geometry::end_point(wall.curve) - P;
+      const double right = cross(d, from), left = cross(d, to);
+      if (k == wall_) {
+        along_piece(right, left, offer);
+      } else if (right <= 0.0 && left > 0.0) {
+        const double u = right / (right - left);
+        offer(k, u, dot(d, from + u * (to - from)));
+      }
+    }
+    if (!(first < HUGE_VAL)) return {};
+    return curve_.parameter(next_wall_, next_u_);
+  }
+  /// The piece that the flight comes from bends back into it, if one of its ends is on the other
+  /// side. With the slope a at the start the distance is about -a s + b s^2.
+  template <class Offer>
+  void along_piece(double at_start, double at_end, const Offer& offer) const {
+    const double part = curve_.parameter(wall_, 1.0) - curve_.parameter(wall_, 0.0);
+    const geometry::Vector tangent = middle_of(curve_.at(*parameter_).first);
+    const double a = -part * cross(middle_of(direction_), tangent);
+    const auto zero = [&](double length, double value) {
+      return a * length * length / (value + a * length);
+    };
+    const double ahead = 1.0 - u_;
+    if (at_end > 0.0) offer(wall_, u_ + zero(ahead, at_end), 0x1p-100);
+    if (at_start < 0.0) offer(wall_, u_ + zero(-u_, at_start), 0x1p-100);
+  }
+
+  void finish(CertifiedFate fate, std::string reason) {
+    const Precision precision(bits_);
+    done_ = true;
+    end_.fate = fate;
+    end_.reason = std::move(reason);
+    end_.collisions = hits_;
+    end_.wall = wall_;
+    fill(end_, state());
+  }
+  /// With the last hit that was given out, or the start.
+  void finish_as_given(CertifiedFate fate, std::string reason) {
+    if (given_ == 0) return finish(fate, std::move(reason));
+    done_ = true;
+    end_.fate = fate;
+    end_.reason = std::move(reason);
+    static_cast<CertifiedState&>(end_) = last_;
+    end_.collisions = given_;
+    end_.wall = last_.wall;
+  }
+
+  const ExactSystem system_;
+  const CertifiedTask task_;
+  const std::function<bool()> interrupted_;
+  const CurveOfFormulas curve_;
+  slong bits_ = 0;
+  // After the last hit.
+  BallVector position_, direction_;
+  Ball time_, speed_;
+  std::optional<Ball> parameter_;  ///< where it is on the curve
+  int wall_ = -1;
+  double u_ = 0.0;
+  int next_wall_ = -1;
+  double next_u_ = 0.0;
+  std::uint64_t hits_ = 0, given_ = 0;
+  CertifiedHit last_;
+  bool done_ = false;
+  CertifiedEnd end_;
+  CertifiedEffort effort_;
+};
+
+}  // namespace
+
+std::unique_ptr<FollowedOrbit> orbit_along_curve(const ExactSystem& system,
+                                                 const CertifiedTask& task,
+                                                 std::function<bool()> interrupted,
+                                                 CurveOfFormulas curve) {
+  return std::make_unique<CurveOrbit>(system, task, std::move(interrupted), std::move(curve));
+}
+
+}  // namespace carom::certify

@@ -1,0 +1,172 @@
+// Certified orbits inside curves that are given by formulas: against walls of the same shape, more
+// digits, doubles, and their way back.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "carom/base/error.hpp"
+#include "carom/certify/certified_orbit.hpp"
+#include "carom/events/world.hpp"
+#include "carom/files/system_file.hpp"
+
+namespace carom {
+namespace {
+
+ExactSystem system_of(const std::string& table, const std::string& more = "") {
+  return read_system("[table]\n" + table +
+                         "\n[particles]\nspeed = 2\n[initial]\nkind = \"point\"\nposition = [0.3, "
+                         "\"1/7\"]\nangle = \"pi/5\"\n" +
+                         more,
+                     "test")
+      .exact;
+}
+CertifiedTask task_of(std::uint64_t collisions, int digits) {
+  CertifiedTask task;
+  task.collisions = collisions;
+  task.digits = digits;
+  return task;
+}
+void expect_same(const CertifiedState& a, const CertifiedState& b, int digits) {
+  // The last digits are rounded from numbers that may differ by the error.
+  for (const auto member : {&CertifiedState::t, &CertifiedState::x, &CertifiedState::y,
+                            &CertifiedState::vx, &CertifiedState::vy})
+    EXPECT_EQ((a.*member).text(digits), (b.*member).text(digits));
+}
+
+TEST(CurveOrbit, ConicsWrittenAsCurvesHaveTheirDigits) {
+  const std::pair<const char*, const char*> same[] = {
+      {"shape = \"circle\"\nradius = \"1/3 + 1/2\"", "shape = \"polar\"\nradius = \"1/3 + 1/2\""},
+      {"shape = \"ellipse\"\na = 2\nb = 0.7",
+       "shape = \"parametric\"\nx = \"2*cos(t)\"\ny = \"0.7*sin(t)\""},
+      {"shape = \"ellipse\"\na = 2\nb = 0.7",
+       "shape = \"parametric\"\nx = \"2*sin(t)\"\ny = \"0.7*cos(t)\""},
+      {"shape = \"ellipse\"\na = 2\nb = 0.7",
+       "shape = \"polar\"\nradius = \"1.4/sqrt((0.7*cos(phi))^2 + (2*sin(phi))^2)\""}};
+  for (const auto& [conic, curve] : same) {
+    CertifiedOrbit one(system_of(conic), task_of(25, 42)), other(system_of(curve), task_of(25, 42));
+    for (int n = 1; n <= 25; ++n) {
+      const auto a = one.next(), b = other.next();
+      ASSERT_TRUE(a && b);
+      EXPECT_EQ(b->number, static_cast<std::uint64_t>(n));
+      expect_same(*a, *b, 40);
+    }
+    EXPECT_FALSE(other.next());
+    EXPECT_EQ(other.end_state().fate, CertifiedFate::completed);
+    CertifiedTask until = task_of(0, 42);
+    until.t_max = ExactNumber("17/3");
+    CertifiedOrbit first(system_of(conic), until), second(system_of(curve), until);
+    expect_same(first.finish(), second.finish(), 40);
+    EXPECT_EQ(first.end_state().collisions, second.end_state().collisions);
+  }
+}
+
+const char* const curves[] = {"shape = \"cardioid\"\nradius = 1",
+                              "shape = \"robnik\"\nradius = 1\nlambda = 0.3",
+                              "shape = \"superellipse\"\na = 1\nb = 1.5\nexponent = 4",
+                              "shape = \"egg\"\na = 1.2\nb = 1\nepsilon = 0.2"};
+
+TEST(CurveOrbit, MoreDigitsBeginWithTheSame) {
+  for (const char* curve : curves) {
+    CertifiedOrbit few(system_of(curve), task_of(40, 12)), many(system_of(curve), task_of(40, 60));
+    while (const auto hit = few.next()) {
+      const auto same = many.next();
+      ASSERT_TRUE(same) << curve;
+      EXPECT_LT(std::fabs(hit->x.to_double() - same->x.to_double()), 1e-12);
+      EXPECT_LT(same->x.log2_error(), -60.0 * 3.32);
+      EXPECT_EQ(hit->wall, same->wall);
+    }
+    EXPECT_FALSE(many.next());
+    EXPECT_GE(many.effort().bits, 200);
+  }
+}
+
+TEST(CurveOrbit, DoublesBeginAlike) {
+  for (const char* curve : curves) {
+    const ExactSystem system = system_of(curve);
+    CertifiedOrbit certified(system, task_of(6, 20));
+    World world(*system.table);
+    State start;
+    start.position = {0.3, 1.0 / 7.0};
+    const double angle = M_PI / 5.0;
+    start.velocity = {2.0 * std::cos(angle), 2.0 * std::sin(angle)};
+    Particle particle;
+    particle.speed = 2.0;
+    world.add(particle, start);
+    struct Hits : Observer {
+      std::vector<HitEvent> all;
+      void hit(const HitEvent& e) override { all.push_back(e); }
+    } hits;
+    world.limit_hits(6);
+    world.run_until(1e300, hits);
+    ASSERT_EQ(hits.all.size(), 6U);
+    for (const HitEvent& hit : hits.all) {
+      const auto exact = certified.next();
+      ASSERT_TRUE(exact);
+      EXPECT_NEAR(exact->x.to_double(), hit.position.x, 1e-8) << curve;
+      EXPECT_NEAR(exact->y.to_double(), hit.position.y, 1e-8) << curve;
+    }
+  }
+}
+
+// Its last decimals, as a start: there and back it is the start again.
+TEST(CurveOrbit, TheWayBackLeadsToTheStart) {
+  for (const char* curve : curves) {
+    ExactSystem system = system_of(curve);
+    CertifiedTask task = task_of(0, 80);
+    task.t_max = ExactNumber("9.7");
+    CertifiedOrbit there(system, task);
+    const CertifiedEnd end = there.finish();
+    ASSERT_EQ(end.fate, CertifiedFate::completed) << end.reason;
+    EXPECT_GT(end.collisions, 5U);
+    system.start = {};
+    system.start.position = {ExactNumber(end.x.text(80)), ExactNumber(end.y.text(80))};
+    system.start.direction = {ExactNumber("-(" + end.vx.text(80) + ")"),
+                              ExactNumber("-(" + end.vy.text(80) + ")")};
+    task.digits = 50;
+    CertifiedOrbit back(system, task);
+    const CertifiedEnd& start = back.finish();
+    EXPECT_EQ(start.x.text(40), "0.3000000000000000000000000000000000000000") << curve;
+    EXPECT_EQ(start.y.text(40), "0.1428571428571428571428571428571428571429");
+    EXPECT_EQ(start.collisions, end.collisions);
+  }
+}
+
+TEST(CurveOrbit, StartsOnTheWall) {
+  ExactSystem system = system_of("shape = \"limacon\"\nradius = 1\nepsilon = 0.5");
+  system.start = {};
+  system.start.wall = 2;
+  system.start.u = 0.25;
+  system.start.direction = {ExactNumber("-1"), ExactNumber("0.1")};
+  CertifiedOrbit orbit(system, task_of(10, 20));
+  EXPECT_EQ(orbit.finish().collisions, 10U) << orbit.end_state().reason;
+  system.start.direction = {ExactNumber("1"), ExactNumber("0.1")};
+  EXPECT_THROW(CertifiedOrbit(system, task_of(10, 20)), InputError);
+}
+
+TEST(CurveOrbit, RefusesByName) {
+  const std::string curve = curves[1];
+  EXPECT_THROW(CertifiedOrbit(system_of(curve, "[field]\nB = 0.5\n"), task_of(5, 20)), InputError);
+  ExactSystem outside = system_of(curve);
+  outside.start.position = {ExactNumber("1.5"), ExactNumber("1")};
+  EXPECT_THROW(CertifiedOrbit(outside, task_of(5, 20)), InputError);
+  ExactSystem on_the_wall = system_of("shape = \"polar\"\nradius = \"1 + 0.1*cos(phi)\"");
+  on_the_wall.start.position = {ExactNumber("1.1"), ExactNumber("0")};
+  EXPECT_THROW(CertifiedOrbit(on_the_wall, task_of(5, 20)), InputError);
+}
+
+// Straight into the cusp: no direction is its normal.
+TEST(CurveOrbit, TheCuspIsUndecided) {
+  ExactSystem system = system_of(curves[0]);
+  system.start.position = {ExactNumber("1"), ExactNumber("0")};
+  system.start.angle.reset();
+  system.start.direction = {ExactNumber("-1"), ExactNumber("0")};
+  CertifiedTask task = task_of(5, 10);
+  task.most_bits_a_doubt = 256;
+  CertifiedOrbit orbit(system, task);
+  EXPECT_EQ(orbit.finish().fate, CertifiedFate::undecided);
+  EXPECT_NE(orbit.end_state().reason, "");
+}
+
+}  // namespace
+}  // namespace carom
