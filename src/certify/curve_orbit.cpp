@@ -18,9 +18,6 @@ namespace {
 
 constexpr double bits_a_digit = 3.3219280948873626;  // log2(10)
 
-BallVector scaled(const Ball& s, const BallVector& v) { return {s * v.x, s * v.y}; }
-geometry::Vector middle_of(const BallVector& v) { return {v.x.to_double(), v.y.to_double()}; }
-
 class CurveOrbit final : public FollowedOrbit {
  public:
   CurveOrbit(const ExactSystem& system, const CertifiedTask& task,
@@ -115,7 +112,7 @@ class CurveOrbit final : public FollowedOrbit {
     } else {
       const Ball length2 = dot(direction_, direction_);
       effort_.rescaled = !(length2 - square(speed_)).contains(Ball(0));
-      direction_ = scaled(Ball(1) / sqrt(length2), direction_);
+      direction_ = (Ball(1) / sqrt(length2)) * direction_;
     }
     parameter_.reset();
     if (wall_ < 0) {
@@ -132,7 +129,7 @@ class CurveOrbit final : public FollowedOrbit {
   Sign inwards(const BallVector& tangent) const {
     return sign(Ball(curve_.turn()) * cross(tangent, direction_));
   }
-  BallState state() const { return {position_, scaled(speed_, direction_), time_}; }
+  BallState state() const { return {position_, speed_ * direction_, time_}; }
 
   /// log2 of the largest error of the state's numbers.
   double log2_error() const {
@@ -164,7 +161,7 @@ class CurveOrbit final : public FollowedOrbit {
   }
 
   Step take_step() {
-    const std::optional<double> about = in_doubles();
+    const std::optional<double> about = near_next_hit();
     if (!about) return Step::unclear;
     const auto distance = [&](const BallVector& x) { return cross(direction_, x - position_); };
     Ball at(*about);
@@ -182,8 +179,7 @@ class CurveOrbit final : public FollowedOrbit {
       if (!box.contains(hit)) continue;
       // By their derivatives: formulas of balls are wider.
       const Ball e = hit - at;
-      return arrive(hit, there.point + scaled(e, about_there.first),
-                    there.first + scaled(e, about_there.second));
+      return arrive(hit, there.point + e * about_there.first, there.first + e * about_there.second);
     }
     return Step::unclear;
   }
@@ -199,14 +195,14 @@ class CurveOrbit final : public FollowedOrbit {
       const Sign later = sign(time - last);
       if (later == Sign::undecided) return Step::unclear;
       if (later == Sign::positive) {
-        position_ = position_ + scaled(rest * speed_, direction_);
+        position_ = position_ + (rest * speed_) * direction_;
         time_ = last;
         return Step::stopped;
       }
     }
     const BallVector normal = left(tangent);
     const Ball twice = (Ball(2) * dot(direction_, normal)) / dot(normal, normal);
-    direction_ = direction_ - scaled(twice, normal);
+    direction_ = direction_ - twice * normal;
     position_ = point;
     parameter_ = hit;
     time_ = time;
@@ -218,8 +214,8 @@ class CurveOrbit final : public FollowedOrbit {
 
   /// About the parameter of the next hit: where the flight first leaves the polygon of the points
   /// between pieces.
-  std::optional<double> in_doubles() {
-    const geometry::Vector P = middle_of(position_), d = middle_of(direction_);
+  std::optional<double> near_next_hit() {
+    const geometry::Vector P = in_doubles(position_), d = in_doubles(direction_);
     double first = HUGE_VAL;
     const auto offer = [&](int wall, double u, double along) {
       if (!(along > 0.0 && along < first)) return;
@@ -247,8 +243,8 @@ class CurveOrbit final : public FollowedOrbit {
   template <class Offer>
   void along_piece(double at_start, double at_end, const Offer& offer) const {
     const double part = curve_.parameter(wall_, 1.0) - curve_.parameter(wall_, 0.0);
-    const geometry::Vector tangent = middle_of(curve_.at(*parameter_).first);
-    const double a = -part * cross(middle_of(direction_), tangent);
+    const geometry::Vector tangent = in_doubles(curve_.at(*parameter_).first);
+    const double a = -part * cross(in_doubles(direction_), tangent);
     const auto zero = [&](double length, double value) {
       return a * length * length / (value + a * length);
     };

@@ -32,7 +32,6 @@ Ball sin_of(const Ball& a) {
   arb_sin(r.raw(), a.raw(), Precision::bits());
   return r;
 }
-geometry::Vector middle(const BallVector& v) { return {v.x.to_double(), v.y.to_double()}; }
 BallVector scaled(const Ball& s, const BallVector& v) { return {s * v.x, s * v.y}; }
 
 // A wall as a function of one number: from + t chord, or centre + A cos t + B sin t; or the whole
@@ -267,7 +266,7 @@ class Equations {
     for (std::size_t i = 0; i < n; ++i) {
       const BallVector &P = a.places[i].point, v = scaled(speed, a.flights[i].out);
       const NearHit &from = hits_[i], &to = hits_[(i + 1) % n];
-      const Choice next = scene_.next(where_, P, v, from.wall, middle(P), middle(v));
+      const Choice next = scene_.next(where_, P, v, from.wall, in_doubles(P), in_doubles(v));
       if (next.answer != Choice::wall) return "it cannot be told which wall a flight meets first";
       if (!(next.first == Copy{to.wall, from.step})) return "another wall is in the way";
       const BallVector seen = scene_.lattice ? P - scene_.translation(from.step) : P;

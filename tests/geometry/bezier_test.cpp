@@ -10,6 +10,7 @@
 #include "carom/geometry/bezier_flight.hpp"
 #include "carom/geometry/exact_flight.hpp"
 #include "carom/geometry/region.hpp"
+#include "random_tables.hpp"
 
 namespace carom::geometry {
 namespace {
@@ -210,7 +211,8 @@ Tally compare(unsigned seed, int curves, int flights, double size, bool field,
 TEST(BezierFlights, FilterAndExactStageAgree) {
   for (const bool field : {false, true})
     for (const double size : {1.0, 1e-6, 1e6}) {
-      const Tally t = compare(3, 40, field ? 20 : 100, size, field, false);
+      const Tally t = compare(3, static_cast<int>(tests::cases(40, 3000)), field ? 20 : 100, size,
+                              field, false);
       std::printf("size %g, field %d: %ld flights, %ld decided, %ld exits\n", size, field, t.cases,
                   t.decided, t.exits);
       EXPECT_GT(t.exits, t.cases / 10);

@@ -16,6 +16,10 @@ struct CurvePlace {
   BallVector point, first, second;
 };
 
+inline geometry::Vector in_doubles(const BallVector& v) {
+  return {v.x.to_double(), v.y.to_double()};
+}
+
 class CurveOfFormulas {
  public:
   explicit CurveOfFormulas(table::shapes::CurveFormulas);
