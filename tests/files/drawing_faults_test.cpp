@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "carom/table/table.hpp"
+#include "damaged.hpp"
 #include "files/svg/drawing.hpp"
 #include "files/toml/read.hpp"
 #include "scratch_folder.hpp"
@@ -147,47 +148,21 @@ TEST(DrawingFaults, EntitiesDoNotExplode) {
   EXPECT_NE(fault_of("<svg><circle r='" + digits + "'/></svg>").problem(), "no fault");
 }
 
-// A small generator, so that the cases are the same everywhere.
-class Cases {
- public:
-  std::size_t below(std::size_t n) {
-    state_ = state_ * 6364136223846793005u + 1442695040888963407u;
-    return static_cast<std::size_t>(state_ >> 33) % n;
-  }
-
- private:
-  std::uint64_t state_ = 33;
-};
-
 const std::string pieces[] = {"0",    "-1",   "1e99",       "1e-99", "<",      ">",   "/>",
                               "\"",   "'",    "&",          "&#0;",  "z",      "M",   "a1 1 0 01",
                               "\xff", "é",    "<g>",        "</g>",  "<!--",   "]]>", "scale(0)",
                               "e",    "1e-9", "rotate(45)", ",",     "<path ", "\n",  "<!DOCTYPE"};
 
+/// A part of it comes once more, elsewhere.
 std::string damaged(std::string text, Cases& cases) {
-  for (std::size_t k = cases.below(3) + 1; k > 0 && !text.empty(); --k) {
-    const std::size_t at = cases.below(text.size());
-    switch (cases.below(4)) {
-      case 0:
-        text.erase(at, cases.below(12) + 1);
-        break;
-      case 1:
-        text.insert(at, pieces[cases.below(std::size(pieces))]);
-        break;
-      case 2: {  // a part of it once more, elsewhere
-        const std::string part = text.substr(cases.below(text.size()), cases.below(60));
-        text.insert(at, part);
-        break;
-      }
-      default:
-        text[at] = static_cast<char>(32 + cases.below(95));
-    }
-  }
-  return text;
+  return damaged(std::move(text), cases, pieces, [&](std::string& all, std::size_t at) {
+    const std::string part = all.substr(cases.below(all.size()), cases.below(60));
+    all.insert(at, part);
+  });
 }
 
 TEST(DrawingFaults, DamagedDrawingsAreRefusedOrRead) {
-  Cases cases;
+  Cases cases(33);
   int refused = 0, read = 0;
   for (const char* name :
        {"inkscape", "illustrator", "figma", "pdf2svg", "stadium", "transforms"}) {
