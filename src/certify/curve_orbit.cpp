@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"
 #include "certify/flight/beside_curve.hpp"
 #include "certify/followed_orbit.hpp"
@@ -43,8 +44,8 @@ class CurveOrbit final : public FollowedOrbit {
       }
       const Precision precision(bits_);
       const Step step = take_step();
-      if (step == Step::stopped && is_accurate()) {
-        finish(CertifiedFate::completed, "");
+      if ((step == Step::stopped || step == Step::pinned) && is_accurate()) {
+        finish(step == Step::pinned ? CertifiedFate::pinned : CertifiedFate::completed, "");
         break;
       }
       if (step != Step::hit || !(hits_ <= given_ || is_accurate())) {
@@ -66,16 +67,12 @@ class CurveOrbit final : public FollowedOrbit {
   const CertifiedEffort& effort() override { return effort_; }
 
  private:
-  enum class Step : unsigned char { hit, stopped, unclear };
+  enum class Step : unsigned char { hit, stopped, pinned, unclear };
 
   void check() {
-    if (sign_of(system_.omega) != Sign::zero)
-      throw InputError(system_.omega.place(),
-                       "orbits along a curve given by formulas are not certified in a field",
-                       "no field, or walls of segments, circles and ellipses");
     if (!system_.table->holes.empty())
       throw InputError(Place{},
-                       "orbits along a curve given by formulas are certified without holes",
+                       "orbits inside a curve given by formulas are certified without holes",
                        "--closed");
     check_velocity(system_.start);
     if (system_.start.wall < 0) check_inside();
@@ -105,6 +102,7 @@ class CurveOrbit final : public FollowedOrbit {
     wall_ = start.wall;
     u_ = start.u;
     speed_ = value_of(system_.speed);
+    curvature_ = value_of(system_.omega) / speed_;
     direction_ = {value_of(start.direction.x), value_of(start.direction.y)};
     if (start.angle) {
       const CosSin d = direction_of(*start.angle);
@@ -162,20 +160,30 @@ class CurveOrbit final : public FollowedOrbit {
 
   Step take_step() {
     const std::optional<double> about = near_next_hit();
-    if (!about) return Step::unclear;
-    const auto distance = [&](const BallVector& x) { return cross(direction_, x - position_); };
+    if (!about) {
+      const bool turns = sign(curvature_) != Sign::zero && hits_ == 0 && !parameter_;
+      const bool pinned =
+          turns && circle_meets_nothing(curve_, {position_, position_, direction_, curvature_});
+      return pinned ? Step::pinned : Step::unclear;
+    }
+    const auto side = [&](const CurvePlace& p) {
+      return side_of_flight(direction_, curvature_, p.point - position_);
+    };
+    const auto slope = [&](const CurvePlace& p) {
+      return slope_of_side(direction_, curvature_, p.point - position_, p.first);
+    };
     Ball at(*about);
     for (double b = 30.0; b < 2.0 * static_cast<double>(bits_); b *= 2.0) {
       const CurvePlace place = curve_.at(at);
-      at = (at - distance(place.point) / cross(direction_, place.first)).midpoint();
+      at = (at - side(place) / slope(place)).midpoint();
     }
     const CurvePlace there = curve_.at(at);
-    const Ball missed = distance(there.point);
-    Bound radius = size_of(missed / cross(direction_, there.first)) * Bound(2.0);
+    const Ball missed = side(there);
+    Bound radius = size_of(missed / slope(there)) * Bound(2.0);
     for (int attempt = 0; attempt < 4; ++attempt, radius = radius * Bound(16.0)) {
       const Ball box = at.widened(radius);
       const CurvePlace about_there = curve_.at(box);
-      const Ball hit = at - missed / cross(direction_, about_there.first);
+      const Ball hit = at - missed / slope(about_there);
       if (!box.contains(hit)) continue;
       // By their derivatives: formulas of balls are wider.
       const Ball e = hit - at;
@@ -186,23 +194,27 @@ class CurveOrbit final : public FollowedOrbit {
 
   Step arrive(const Ball& hit, const BallVector& point, const BallVector& tangent) {
     const BallVector chord = point - position_;
-    const Ball time = time_ + sqrt(dot(chord, chord)) / speed_;
-    if (inwards(tangent) != Sign::negative ||
-        !meets_nowhere_else(curve_, {position_, point}, parameter_, hit))
+    // An arc turns by as much before the middle of its chord as after it.
+    const Ball length2 = dot(chord, chord), along = dot(direction_, chord);
+    const BallVector arrival = ((Ball(2) * along) / length2) * chord - direction_;
+    const FlightBetween flight{position_, point, direction_, curvature_};
+    if (sign(Ball(curve_.turn()) * cross(tangent, arrival)) != Sign::negative ||
+        !meets_nowhere_else(curve_, flight, parameter_, hit))
       return Step::unclear;
+    const Ball time = time_ + length_of_flight(chord) / speed_;
     if (task_.t_max) {
       const Ball last = value_of(*task_.t_max), rest = last - time_;
       const Sign later = sign(time - last);
       if (later == Sign::undecided) return Step::unclear;
       if (later == Sign::positive) {
-        position_ = position_ + (rest * speed_) * direction_;
+        fly(rest * speed_);
         time_ = last;
         return Step::stopped;
       }
     }
     const BallVector normal = left(tangent);
-    const Ball twice = (Ball(2) * dot(direction_, normal)) / dot(normal, normal);
-    direction_ = direction_ - twice * normal;
+    const Ball twice = (Ball(2) * dot(arrival, normal)) / dot(normal, normal);
+    direction_ = arrival - twice * normal;
     position_ = point;
     parameter_ = hit;
     time_ = time;
@@ -211,46 +223,79 @@ class CurveOrbit final : public FollowedOrbit {
     ++hits_;
     return Step::hit;
   }
+  /// Twice the angle from the direction to the chord, over the curvature.
+  Ball length_of_flight(const BallVector& chord) const {
+    if (sign(curvature_) == Sign::zero) return sqrt(dot(chord, chord));
+    Ball half_turn;
+    arb_atan2(half_turn.raw(), cross(chord, direction_).raw(), dot(chord, direction_).raw(),
+              Precision::bits());
+    return Ball(2) * half_turn / curvature_;
+  }
+  /// Over a way of that length.
+  void fly(const Ball& length) {
+    if (sign(curvature_) == Sign::zero) {
+      position_ = position_ + length * direction_;
+      return;
+    }
+    Ball sine, cosine;
+    arb_sin_cos(sine.raw(), cosine.raw(), (curvature_ * length).raw(), Precision::bits());
+    const BallVector right = -left(direction_);
+    position_ =
+        position_ + (sine / curvature_) * direction_ + ((Ball(1) - cosine) / curvature_) * right;
+    direction_ = cosine * direction_ + sine * right;
+  }
 
   /// About the parameter of the next hit: where the flight first leaves the polygon of the points
-  /// between pieces.
+  /// between pieces. In doubles.
   std::optional<double> near_next_hit() {
     const geometry::Vector P = in_doubles(position_), d = in_doubles(direction_);
+    const double k = curvature_.to_double();
     double first = HUGE_VAL;
-    const auto offer = [&](int wall, double u, double along) {
-      if (!(along > 0.0 && along < first)) return;
-      first = along;
+    // By half of the angle that the flight has turned by, or by its length.
+    const auto offer = [&](int wall, double u, geometry::Vector e) {
+      const double along = dot(d, e);
+      const double way =
+          k == 0.0 ? along : elementary::atan2(std::copysign(1.0, k) * cross(e, d), along);
+      if (!(way > 0.0 && way < first)) return;
+      first = way;
       next_wall_ = wall;
       next_u_ = u;
     };
-    for (int k = 0; k < static_cast<int>(system_.table->walls.size()); ++k) {
-      const Wall& wall = system_.table->wall(k);
-      const geometry::Vector from = geometry::start_point(wall.curve) - P,
-                             to = geometry::end_point(wall.curve) - P;
-      const double right = cross(d, from), left = cross(d, to);
-      if (k == wall_) {
-        along_piece(right, left, offer);
-      } else if (right <= 0.0 && left > 0.0) {
-        const double u = right / (right - left);
-        offer(k, u, dot(d, from + u * (to - from)));
+    for (int wall = 0; wall < static_cast<int>(system_.table->walls.size()); ++wall) {
+      const geometry::Curve& curve = system_.table->wall(wall).curve;
+      const geometry::Vector from = geometry::start_point(curve) - P,
+                             side = geometry::end_point(curve) - geometry::start_point(curve);
+      // The side of the flight is a w^2 + b w + c on the way from one point to the next.
+      const double a = k * dot(side, side), c = geometry::side_of_flight(d, from, k),
+                   b = 2.0 * (cross(d, side) + k * dot(from, side));
+      if (wall == wall_) {
+        along_piece(c, a + b + c, from, side, offer);
+        continue;
       }
+      const double square = b * b - 4.0 * a * c;
+      if (!(square > 0.0)) continue;
+      // Where it rises.
+      const double root = std::sqrt(square),
+                   u = b > 0.0 ? -2.0 * c / (b + root) : (root - b) / (2.0 * a);
+      if (u >= 0.0 && u < 1.0) offer(wall, u, from + u * side);
     }
     if (!(first < HUGE_VAL)) return {};
     return curve_.parameter(next_wall_, next_u_);
   }
-  /// The piece that the flight comes from bends back into it, if one of its ends is on the other
-  /// side. With the slope a at the start the distance is about -a s + b s^2.
+  /// The piece that the flight comes from bends back into it if one of its ends is on the other
+  /// side. With the slope a at the start the side is about -a s + b s^2.
   template <class Offer>
-  void along_piece(double at_start, double at_end, const Offer& offer) const {
+  void along_piece(double at_start, double at_end, geometry::Vector from, geometry::Vector side,
+                   const Offer& offer) const {
     const double part = curve_.parameter(wall_, 1.0) - curve_.parameter(wall_, 0.0);
     const geometry::Vector tangent = in_doubles(curve_.at(*parameter_).first);
-    const double a = -part * cross(in_doubles(direction_), tangent);
-    const auto zero = [&](double length, double value) {
-      return a * length * length / (value + a * length);
-    };
-    const double ahead = 1.0 - u_;
-    if (at_end > 0.0) offer(wall_, u_ + zero(ahead, at_end), 0x1p-100);
-    if (at_start < 0.0) offer(wall_, u_ + zero(-u_, at_start), 0x1p-100);
+    const double a = -2.0 * part * cross(in_doubles(direction_), tangent);
+    for (const auto& [length, value] : {std::pair{1.0 - u_, at_end}, std::pair{-u_, -at_start}}) {
+      if (!(value > 0.0)) continue;
+      const double end = length > 0.0 ? value : -value;
+      const double u = u_ + a * length * length / (end + a * length);
+      offer(wall_, u, from + u * side);
+    }
   }
 
   void finish(CertifiedFate fate, std::string reason) {
@@ -280,7 +325,7 @@ class CurveOrbit final : public FollowedOrbit {
   slong bits_ = 0;
   // After the last hit.
   BallVector position_, direction_;
-  Ball time_, speed_;
+  Ball time_, speed_, curvature_;
   std::optional<Ball> parameter_;  ///< where it is on the curve
   int wall_ = -1;
   double u_ = 0.0;

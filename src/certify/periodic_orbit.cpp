@@ -291,13 +291,7 @@ class Equations {
     };
     if (inwards(i, f.out) != Sign::positive || inwards(next, f.in) != Sign::negative)
       return "a flight is not inside the curve";
-    FlightBetween flight{a.places[i].point, a.places[next].point, field_};
-    if (field_) {
-      flight.clockwise = sign(curvature_) == Sign::positive;
-      const BallVector to_centre = scaled(Ball(-1) / curvature_, left(f.out));
-      flight.centre = flight.from + to_centre;
-      flight.radius2 = dot(to_centre, to_centre);
-    }
+    const FlightBetween flight{a.places[i].point, a.places[next].point, f.out, curvature_};
     return meets_nowhere_else(*curve_, flight, x[i], x[next])
                ? ""
                : "a flight meets the curve earlier, or it cannot be told";

@@ -43,22 +43,24 @@ TEST(CurveOrbit, ConicsWrittenAsCurvesHaveTheirDigits) {
        "shape = \"parametric\"\nx = \"2*sin(t)\"\ny = \"0.7*cos(t)\""},
       {"shape = \"ellipse\"\na = 2\nb = 0.7",
        "shape = \"polar\"\nradius = \"1.4/sqrt((0.7*cos(phi))^2 + (2*sin(phi))^2)\""}};
-  for (const auto& [conic, curve] : same) {
-    CertifiedOrbit one(system_of(conic), task_of(25, 42)), other(system_of(curve), task_of(25, 42));
-    for (int n = 1; n <= 25; ++n) {
-      const auto a = one.next(), b = other.next();
-      ASSERT_TRUE(a && b);
-      EXPECT_EQ(b->number, static_cast<std::uint64_t>(n));
-      expect_same(*a, *b, 40);
+  for (const auto& [conic, curve] : same)
+    for (const char* field : {"", "[field]\nB = 0.6\n", "[field]\nB = -3\n"}) {
+      CertifiedOrbit one(system_of(conic, field), task_of(25, 42)),
+          other(system_of(curve, field), task_of(25, 42));
+      for (int n = 1; n <= 25; ++n) {
+        const auto a = one.next(), b = other.next();
+        ASSERT_TRUE(a && b);
+        EXPECT_EQ(b->number, static_cast<std::uint64_t>(n));
+        expect_same(*a, *b, 40);
+      }
+      EXPECT_FALSE(other.next());
+      EXPECT_EQ(other.end_state().fate, CertifiedFate::completed);
+      CertifiedTask until = task_of(0, 42);
+      until.t_max = ExactNumber("17/3");
+      CertifiedOrbit first(system_of(conic, field), until), second(system_of(curve, field), until);
+      expect_same(first.finish(), second.finish(), 40);
+      EXPECT_EQ(first.end_state().collisions, second.end_state().collisions);
     }
-    EXPECT_FALSE(other.next());
-    EXPECT_EQ(other.end_state().fate, CertifiedFate::completed);
-    CertifiedTask until = task_of(0, 42);
-    until.t_max = ExactNumber("17/3");
-    CertifiedOrbit first(system_of(conic), until), second(system_of(curve), until);
-    expect_same(first.finish(), second.finish(), 40);
-    EXPECT_EQ(first.end_state().collisions, second.end_state().collisions);
-  }
 }
 
 const char* const curves[] = {"shape = \"cardioid\"\nradius = 1",
@@ -111,25 +113,27 @@ TEST(CurveOrbit, DoublesBeginAlike) {
 
 // Its last decimals, as a start: there and back it is the start again.
 TEST(CurveOrbit, TheWayBackLeadsToTheStart) {
-  for (const char* curve : curves) {
-    ExactSystem system = system_of(curve);
-    CertifiedTask task = task_of(0, 80);
-    task.t_max = ExactNumber("9.7");
-    CertifiedOrbit there(system, task);
-    const CertifiedEnd end = there.finish();
-    ASSERT_EQ(end.fate, CertifiedFate::completed) << end.reason;
-    EXPECT_GT(end.collisions, 5U);
-    system.start = {};
-    system.start.position = {ExactNumber(end.x.text(80)), ExactNumber(end.y.text(80))};
-    system.start.direction = {ExactNumber("-(" + end.vx.text(80) + ")"),
-                              ExactNumber("-(" + end.vy.text(80) + ")")};
-    task.digits = 50;
-    CertifiedOrbit back(system, task);
-    const CertifiedEnd& start = back.finish();
-    EXPECT_EQ(start.x.text(40), "0.3000000000000000000000000000000000000000") << curve;
-    EXPECT_EQ(start.y.text(40), "0.1428571428571428571428571428571428571429");
-    EXPECT_EQ(start.collisions, end.collisions);
-  }
+  for (const char* curve : curves)
+    for (const char* field : {"", "[field]\nB = 1.1\n"}) {
+      ExactSystem system = system_of(curve, field);
+      CertifiedTask task = task_of(0, 80);
+      task.t_max = ExactNumber("9.7");
+      CertifiedOrbit there(system, task);
+      const CertifiedEnd end = there.finish();
+      ASSERT_EQ(end.fate, CertifiedFate::completed) << end.reason;
+      EXPECT_GT(end.collisions, 5U);
+      system.start = {};
+      system.start.position = {ExactNumber(end.x.text(80)), ExactNumber(end.y.text(80))};
+      system.start.direction = {ExactNumber("-(" + end.vx.text(80) + ")"),
+                                ExactNumber("-(" + end.vy.text(80) + ")")};
+      system.omega = ExactNumber("-(" + system.omega.text() + ")");
+      task.digits = 50;
+      CertifiedOrbit back(system, task);
+      const CertifiedEnd& start = back.finish();
+      EXPECT_EQ(start.x.text(40), "0.3000000000000000000000000000000000000000") << curve;
+      EXPECT_EQ(start.y.text(40), "0.1428571428571428571428571428571428571429");
+      EXPECT_EQ(start.collisions, end.collisions);
+    }
 }
 
 TEST(CurveOrbit, StartsOnTheWall) {
@@ -146,13 +150,17 @@ TEST(CurveOrbit, StartsOnTheWall) {
 
 TEST(CurveOrbit, RefusesByName) {
   const std::string curve = curves[1];
-  EXPECT_THROW(CertifiedOrbit(system_of(curve, "[field]\nB = 0.5\n"), task_of(5, 20)), InputError);
   ExactSystem outside = system_of(curve);
   outside.start.position = {ExactNumber("1.5"), ExactNumber("1")};
   EXPECT_THROW(CertifiedOrbit(outside, task_of(5, 20)), InputError);
   ExactSystem on_the_wall = system_of("shape = \"polar\"\nradius = \"1 + 0.1*cos(phi)\"");
   on_the_wall.start.position = {ExactNumber("1.1"), ExactNumber("0")};
   EXPECT_THROW(CertifiedOrbit(on_the_wall, task_of(5, 20)), InputError);
+}
+
+TEST(CurveOrbit, SmallCirclesArePinned) {
+  CertifiedOrbit orbit(system_of(curves[1], "[field]\nB = 40\n"), task_of(5, 20));
+  EXPECT_EQ(orbit.finish().fate, CertifiedFate::pinned);
 }
 
 // Straight into the cusp: no direction is its normal.

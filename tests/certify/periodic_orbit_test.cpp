@@ -95,7 +95,8 @@ TEST(CertifiedPeriodicOrbit, SeesTheCurveInTheWay) {
   const certify::Precision precision(128);
   const auto is_free = [&](double from, double to) {
     const certify::Ball s(from), t(to);
-    return certify::meets_nowhere_else(curve, {curve.at(s).point, curve.at(t).point}, s, t);
+    const certify::BallVector P = curve.at(s).point, Q = curve.at(t).point;
+    return certify::meets_nowhere_else(curve, {P, Q, Q - P, certify::Ball(0)}, s, t);
   };
   EXPECT_TRUE(is_free(0.25, -0.25));
   EXPECT_TRUE(is_free(0.25, 3.25));

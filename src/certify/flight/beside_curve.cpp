@@ -61,18 +61,16 @@ class Winding {
 
 class Search {
  public:
-  Search(const CurveOfFormulas& curve, const FlightBetween& flight,
-         const std::optional<Ball>& first, const Ball& last)
-      : curve_(curve), flight_(flight), ends_{last}, chord_(flight.to - flight.from) {
-    if (first) ends_.push_back(*first);
-  }
+  Search(const CurveOfFormulas& curve, const FlightBetween& flight)
+      : curve_(curve), flight_(flight), chord_(flight.to - flight.from) {}
+  void leave_out(const Ball& end) { ends_.push_back(end); }
 
   /// Is the part of the curve from a to b of its length off the flight, but for the ends?
   bool is_clear(double a, double b, int depth) const {
     const double middle = 0.5 * (a + b), half = 0.5 * (b - a);
     const CurvePlace place = curve_.at(parameter_of(curve_, middle, half));
     const BallVector e = place.point - flight_.from;
-    const Sign side = sign(distance(place.point));
+    const Sign side = sign(side_of_flight(flight_.direction, flight_.curvature, e));
     if (side == Sign::positive || side == Sign::negative || is_beyond(e)) return true;
     if (passes_an_end(middle, 2.0 * half)) return true;
     if (depth == 0) return false;
@@ -80,20 +78,14 @@ class Search {
   }
 
  private:
-  /// Zero on the line, or circle, of the flight.
-  Ball distance(const BallVector& x) const {
-    if (!flight_.turns) return cross(chord_, x - flight_.from);
-    const BallVector e = x - flight_.centre;
-    return dot(e, e) - flight_.radius2;
-  }
-  Ball slope(const CurvePlace& place) const {
-    if (!flight_.turns) return cross(chord_, place.first);
-    return Ball(2) * dot(place.point - flight_.centre, place.first);
-  }
   /// Is a point of that line or circle off the flight? An arc lies on one side of its chord.
   bool is_beyond(const BallVector& e) const {
-    if (flight_.turns)
-      return sign(cross(chord_, e)) == (flight_.clockwise ? Sign::negative : Sign::positive);
+    const Sign turns = sign(flight_.curvature);
+    if (turns != Sign::zero) {
+      const Sign side = sign(cross(chord_, e));
+      return turns == Sign::positive ? side == Sign::negative
+                                     : turns == Sign::negative && side == Sign::positive;
+    }
     const Ball along = dot(chord_, e);
     return sign(along) == Sign::negative || sign(along - dot(chord_, chord_)) == Sign::positive;
   }
@@ -105,7 +97,9 @@ class Search {
     for (const Ball& end : ends_)
       for (const Ball& same : {end - length, end, end + length}) {
         if (!about.contains(same)) continue;
-        const Sign s = sign(slope(curve_.at(about)));
+        const CurvePlace place = curve_.at(about);
+        const Sign s = sign(slope_of_side(flight_.direction, flight_.curvature,
+                                          place.point - flight_.from, place.first));
         return s == Sign::positive || s == Sign::negative;
       }
     return false;
@@ -127,8 +121,16 @@ std::optional<int> turns_round(const CurveOfFormulas& curve, const BallVector& p
 bool meets_nowhere_else(const CurveOfFormulas& curve, const FlightBetween& flight,
                         const std::optional<Ball>& first, const Ball& last) {
   const Precision precision(128);
-  const Search search(curve, flight, first, last);
+  Search search(curve, flight);
+  if (first) search.leave_out(*first);
+  search.leave_out(last);
   return search.is_clear(0.0, 1.0, most_halvings);
+}
+
+bool circle_meets_nothing(const CurveOfFormulas& curve, const FlightBetween& flight) {
+  const Precision precision(128);
+  const FlightBetween whole{flight.from, flight.from, flight.direction, flight.curvature};
+  return Search(curve, whole).is_clear(0.0, 1.0, most_halvings);
 }
 
 }  // namespace carom::certify
