@@ -6,6 +6,9 @@
 // followed again from its exact start with more bits.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
+#include <variant>
 
 #include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"
@@ -159,7 +162,7 @@ class CurveOrbit final : public FollowedOrbit {
   }
 
   Step take_step() {
-    const std::optional<double> about = near_next_hit();
+    const std::optional<Bracket> about = near_next_hit();
     if (!about) {
       const bool turns = sign(curvature_) != Sign::zero && hits_ == 0 && !parameter_;
       const bool pinned =
@@ -172,7 +175,7 @@ class CurveOrbit final : public FollowedOrbit {
     const auto slope = [&](const CurvePlace& p) {
       return slope_of_side(direction_, curvature_, p.point - position_, p.first);
     };
-    Ball at(*about);
+    Ball at(refined(*about, side, slope));
     for (double b = 30.0; b < 2.0 * static_cast<double>(bits_); b *= 2.0) {
       const CurvePlace place = curve_.at(at);
       at = (at - side(place) / slope(place)).midpoint();
@@ -199,6 +202,7 @@ class CurveOrbit final : public FollowedOrbit {
     const BallVector arrival = ((Ball(2) * along) / length2) * chord - direction_;
     const FlightBetween flight{position_, point, direction_, curvature_};
     if (sign(Ball(curve_.turn()) * cross(tangent, arrival)) != Sign::negative ||
+        (sign(curvature_) == Sign::zero && sign(along) != Sign::positive) ||
         !meets_nowhere_else(curve_, flight, parameter_, hit))
       return Step::unclear;
     const Ball time = time_ + length_of_flight(chord) / speed_;
@@ -218,8 +222,7 @@ class CurveOrbit final : public FollowedOrbit {
     position_ = point;
     parameter_ = hit;
     time_ = time;
-    wall_ = next_wall_;
-    u_ = next_u_;
+    std::tie(wall_, u_) = curve_.wall_at(hit.to_double());
     ++hits_;
     return Step::hit;
   }
@@ -245,21 +248,45 @@ class CurveOrbit final : public FollowedOrbit {
     direction_ = cosine * direction_ + sine * right;
   }
 
-  /// About the parameter of the next hit: where the flight first leaves the polygon of the points
-  /// between pieces. In doubles.
-  std::optional<double> near_next_hit() {
+  /// About where the next hit is: between two parameters, at which the flight passes on either
+  /// side of the curve's point.
+  struct Bracket {
+    double before, after, about;
+  };
+  /// The parameter there, by Newton's steps in doubles that do not leave the bracket.
+  template <class Side, class Slope>
+  double refined(const Bracket& bracket, const Side& side, const Slope& slope) const {
+    const Precision precision(64);
+    double before = bracket.before, after = bracket.after, t = bracket.about;
+    for (int n = 0; n < 100; ++n) {
+      const CurvePlace place = curve_.at(Ball(t));
+      const double value = side(place).to_double();
+      (value < 0.0 ? before : after) = t;
+      double next = t - value / slope(place).to_double();
+      const bool within =
+          before < after ? before < next && next < after : after < next && next < before;
+      if (!within) next = before + 0.5 * (after - before);
+      const bool done = std::fabs(next - t) <= 0x1p-45 * std::fabs(curve_.length().to_double());
+      t = next;
+      if (done) break;
+    }
+    return t;
+  }
+  /// Where the flight first leaves the polygon of the points between pieces, in doubles.
+  std::optional<Bracket> near_next_hit() const {
     const geometry::Vector P = in_doubles(position_), d = in_doubles(direction_);
     const double k = curvature_.to_double();
     double first = HUGE_VAL;
+    std::optional<Bracket> found;
     // By half of the angle that the flight has turned by, or by its length.
-    const auto offer = [&](int wall, double u, geometry::Vector e) {
+    const auto offer = [&](int wall, double u, double low, double high, geometry::Vector e) {
       const double along = dot(d, e);
       const double way =
           k == 0.0 ? along : elementary::atan2(std::copysign(1.0, k) * cross(e, d), along);
       if (!(way > 0.0 && way < first)) return;
       first = way;
-      next_wall_ = wall;
-      next_u_ = u;
+      found = {curve_.parameter(wall, low), curve_.parameter(wall, high),
+               curve_.parameter(wall, u)};
     };
     for (int wall = 0; wall < static_cast<int>(system_.table->walls.size()); ++wall) {
       const geometry::Curve& curve = system_.table->wall(wall).curve;
@@ -272,15 +299,30 @@ class CurveOrbit final : public FollowedOrbit {
         along_piece(c, a + b + c, from, side, offer);
         continue;
       }
+      // From between the curve and its chord.
+      const double height = cross(side, -from), share = dot(side, -from) / dot(side, side);
+      if (height < 0.0 && share > 0.0 && share < 1.0 && cross(side, d) < 0.0 &&
+          height * height < dot(side, side) * bulge_of(curve))
+        offer(wall, share, 0.0, 1.0, 0x1p-100 * d);
       const double square = b * b - 4.0 * a * c;
       if (!(square > 0.0)) continue;
       // Where it rises.
       const double root = std::sqrt(square),
                    u = b > 0.0 ? -2.0 * c / (b + root) : (root - b) / (2.0 * a);
-      if (u >= 0.0 && u < 1.0) offer(wall, u, from + u * side);
+      if (u >= 0.0 && u < 1.0) offer(wall, u, 0.0, 1.0, from + u * side);
     }
-    if (!(first < HUGE_VAL)) return {};
-    return curve_.parameter(next_wall_, next_u_);
+    return found;
+  }
+  /// The square of how far the control points are from the chord, at most.
+  static double bulge_of(const geometry::Curve& curve) {
+    const auto& bezier = std::get<geometry::Bezier>(curve);
+    const geometry::Vector side = bezier.to - bezier.from;
+    double most = 0.0;
+    for (int i = 1; i < bezier.degree; ++i) {
+      const double height = cross(side, bezier.control(i) - bezier.from);
+      most = std::max(most, height * height / dot(side, side));
+    }
+    return most;
   }
   /// The piece that the flight comes from bends back into it if one of its ends is on the other
   /// side. With the slope a at the start the side is about -a s + b s^2.
@@ -294,7 +336,9 @@ class CurveOrbit final : public FollowedOrbit {
       if (!(value > 0.0)) continue;
       const double end = length > 0.0 ? value : -value;
       const double u = u_ + a * length * length / (end + a * length);
-      offer(wall_, u, from + u * side);
+      // Half-way from the start to the root the side has the sign that it has beside the start.
+      const double half = u_ + 0.5 * (u - u_);
+      offer(wall_, u, length > 0.0 ? half : 0.0, length > 0.0 ? 1.0 : half, from + u * side);
     }
   }
 
@@ -329,8 +373,6 @@ class CurveOrbit final : public FollowedOrbit {
   std::optional<Ball> parameter_;  ///< where it is on the curve
   int wall_ = -1;
   double u_ = 0.0;
-  int next_wall_ = -1;
-  double next_u_ = 0.0;
   std::uint64_t hits_ = 0, given_ = 0;
   CertifiedHit last_;
   bool done_ = false;

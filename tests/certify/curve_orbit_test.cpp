@@ -163,6 +163,82 @@ TEST(CurveOrbit, SmallCirclesArePinned) {
   EXPECT_EQ(orbit.finish().fate, CertifiedFate::pinned);
 }
 
+// Of a curve that is not convex, from beside its joints, with hits on the next piece: a zero behind
+// the start is none.
+TEST(CurveOrbit, HitsLieAhead) {
+  ExactSystem system = system_of("shape = \"polar\"\nradius = \"1 + 0.3*cos(3*phi)\"");
+  const World world(*system.table);
+  int hits = 0;
+  for (int k = 0; k < 80; ++k) {
+    system.start = {};
+    system.start.wall = (37 * k) % static_cast<int>(system.table->walls.size());
+    system.start.u = 0.9 + 0.001 * k;
+    const geometry::Curve& curve = system.table->wall(system.start.wall).curve;
+    const geometry::Vector n = geometry::normal_at(curve, system.start.u);
+    // Nearly along the wall.
+    const double sine = 0.0005 * (1.0 + k);
+    const geometry::Vector d = sine * n - std::sqrt(1.0 - sine * sine) * left(n);
+    system.start.direction = {ExactNumber(d.x), ExactNumber(d.y)};
+    CertifiedTask task = task_of(1, 12);
+    task.most_bits_a_doubt = 256;
+    CertifiedOrbit orbit(system, task);
+    const auto hit = orbit.next();
+    if (!hit) continue;  // undecided
+    ++hits;
+    const geometry::Vector from = geometry::point_at(curve, system.start.u),
+                           e = geometry::Vector{hit->x.to_double(), hit->y.to_double()} - from;
+    EXPECT_GT(dot(d, e), 0.0) << k;
+    World one(*system.table);
+    Particle particle;
+    State start;
+    start.wall = system.start.wall;
+    start.u = system.start.u;
+    start.position = from;
+    start.velocity = d;
+    one.add(particle, start);
+    one.limit_hits(1);
+    Observer silent;
+    one.run_until(1e300, silent);
+    EXPECT_NEAR(one.state(0).position.x, hit->x.to_double(), 1e-8) << k;
+    EXPECT_NEAR(one.state(0).position.y, hit->y.to_double(), 1e-8) << k;
+  }
+  EXPECT_GT(hits, 75);
+  // Here a step of Newton's leads far behind the start.
+  system.start = {};
+  system.start.wall = system.table->wall_index("curve_261");
+  const geometry::CurveFrame frame =
+      geometry::frame_of(system.table->wall(system.start.wall).curve);
+  system.start.u = geometry::parameter_at_length(frame, 0.007519816674304043);
+  const geometry::Vector t = geometry::tangent_at(frame, system.start.u);
+  const double along = 0.9999889024956274, across = std::sqrt(1.0 - along * along);
+  const geometry::Vector d = along * t + across * left(t);
+  system.start.direction = {ExactNumber(d.x), ExactNumber(d.y)};
+  CertifiedOrbit orbit(system, task_of(1, 12));
+  EXPECT_NEAR(orbit.finish().t.to_double() * 2.0, 0.008163205412, 1e-8);
+}
+
+// Its formula goes on beyond its ends, inside: that is no wall.
+TEST(CurveOrbit, FormulasEndWhereTheyAreSaidTo) {
+  ExactSystem system =
+      system_of("shape = \"polar\"\nradius = \"1 + 0.3*cos(3*phi) + 0.0001*phi^3*(2*pi - phi)^3\"");
+  system.start = {};
+  system.start.position = {ExactNumber(0.1650693880836361), ExactNumber(-0.6186520615954586)};
+  system.start.direction = {ExactNumber(0.9902399699673184), ExactNumber(0.13937288789116808)};
+  CertifiedOrbit orbit(system, task_of(1, 12));
+  const auto hit = orbit.next();
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->t.to_double() * 2.0, 0.37249, 1e-5);  // speed 2
+}
+
+TEST(CurveOrbit, StartsBetweenTheCurveAndItsPolygon) {
+  ExactSystem system = system_of("shape = \"polar\"\nradius = \"1 + 0.3*cos(3*phi)\"");
+  system.start = {};
+  system.start.position = {ExactNumber("1.299973"), ExactNumber("0.003988")};
+  system.start.direction = {ExactNumber("1"), ExactNumber("0")};
+  CertifiedOrbit orbit(system, task_of(3, 12));
+  EXPECT_EQ(orbit.finish().collisions, 3U) << orbit.end_state().reason;
+}
+
 // Straight into the cusp: no direction is its normal.
 TEST(CurveOrbit, TheCuspIsUndecided) {
   ExactSystem system = system_of(curves[0]);

@@ -1,5 +1,6 @@
 #include "certify/flight/beside_curve.hpp"
 
+#include <array>
 #include <vector>
 
 namespace carom::certify {
@@ -18,8 +19,9 @@ class Winding {
   Winding(const CurveOfFormulas& curve, const BallVector& point) : curve_(curve), point_(point) {}
 
   std::optional<int> find() {
-    const Sign side = side_at(0.0);
-    if (side == Sign::undecided || !count(0.0, side, 1.0, side, most_halvings)) return {};
+    const Sign from = side_at(0.0), to = curve_.periodic() ? from : side_at(1.0);
+    if (from == Sign::undecided || to != from || !count(0.0, from, 1.0, to, most_halvings))
+      return {};
     return twice_ / 2;
   }
 
@@ -37,7 +39,8 @@ class Winding {
     return sign(e.x) == Sign::negative ? Sign::positive : Sign::undecided;
   }
   bool count(double a, Sign from, double b, Sign to, int depth) {
-    const BallVector e = seen(curve_.at(parameter_of(curve_, 0.5 * (a + b), 0.5 * (b - a))).point);
+    const double half = 0.5 * (b - a) + 0x1p-52;  // as the middle is rounded
+    const BallVector e = seen(curve_.at(parameter_of(curve_, 0.5 * (a + b), half)).point);
     const Sign side = sign(e.y);
     if (side == Sign::positive || side == Sign::negative || sign(e.x) == Sign::negative)
       return true;
@@ -122,8 +125,14 @@ bool meets_nowhere_else(const CurveOfFormulas& curve, const FlightBetween& fligh
                         const std::optional<Ball>& first, const Ball& last) {
   const Precision precision(128);
   Search search(curve, flight);
-  if (first) search.leave_out(*first);
-  search.leave_out(last);
+  const std::array<const Ball*, 2> ends{first ? &*first : &last, &last};
+  for (const Ball* end : ends) {
+    // Formulas that do not repeat are no curve beyond their ends.
+    if (!curve.periodic() && !(sign(*end - curve.from()) == Sign::positive &&
+                               sign(curve.from() + curve.length() - *end) == Sign::positive))
+      return false;
+    search.leave_out(*end);
+  }
   return search.is_clear(0.0, 1.0, most_halvings);
 }
 

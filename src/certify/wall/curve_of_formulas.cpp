@@ -1,5 +1,6 @@
 #include "certify/wall/curve_of_formulas.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -52,7 +53,15 @@ Jet without_derivatives(const Ball& value) {
 
 Ball power_of(const Ball& a, const Ball& exponent) {
   Ball r;
-  arb_pow(r.raw(), a.raw(), exponent.raw(), Precision::bits());
+  if (arb_is_int(exponent.raw()) != 0) {  // products: of numbers below zero, and about it, too
+    fmpz_t n;
+    fmpz_init(n);
+    arf_get_fmpz(n, arb_midref(exponent.raw()), ARF_RND_NEAR);
+    arb_pow_fmpz(r.raw(), a.raw(), n, Precision::bits());
+    fmpz_clear(n);
+  } else {
+    arb_pow(r.raw(), a.raw(), exponent.raw(), Precision::bits());
+  }
   return r;
 }
 /// Factors that vanish are left out: a negative power of zero has no value.
@@ -277,6 +286,17 @@ CurvePlace CurveOfFormulas::at(const Ball& t) const {
     y = value(written_.second);
   }
   return {{x.value, y.value}, {x.first, y.first}, {x.second, y.second}};
+}
+
+std::pair<int, double> CurveOfFormulas::wall_at(double parameter) const {
+  const double begin = from().to_double(), round = length().to_double();
+  const double t = parameter - round * std::floor((parameter - begin) / round);
+  const auto found = std::find_if(parts_.begin(), parts_.end(), [&](const auto& part) {
+    return std::min(part.first, part.second) <= t && t <= std::max(part.first, part.second);
+  });
+  if (found == parts_.end()) return {0, 0.0};  // by rounding, at the joint of both ends
+  return {static_cast<int>(found - parts_.begin()),
+          (t - found->first) / (found->second - found->first)};
 }
 
 Ball CurveOfFormulas::from() const { return value_of(written_.from); }

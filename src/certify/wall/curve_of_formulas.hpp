@@ -37,6 +37,8 @@ class CurveOfFormulas {
     const auto [begin, end] = parts_[static_cast<std::size_t>(wall)];
     return begin + u * (end - begin);
   }
+  /// The wall on which a parameter lies, of one or more rounds.
+  std::pair<int, double> wall_at(double parameter) const;
   /// -1: the table's walls run the other way.
   double turn() const { return parts_.front().first < parts_.front().second ? 1.0 : -1.0; }
   /// Do the formulas repeat after the length, so that they are the curve beyond its ends, too?

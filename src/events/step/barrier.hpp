@@ -99,13 +99,17 @@ struct Barrier {
   }
   /// Bound on what rate(x, v) errs against the exact normal by, in epsilon halves. Line: the unit
   /// normal 5, products and sum 3. Conic: a map to y 9, twice; its rows 5, twice; the point and the
-  /// centre 4 together. Graph: twice a line's, 64 of the slope, and what the place changes it by.
+  /// centre 4 together. Graph: twice a line's, 64 of the slope, what the place changes that by, and
+  /// what the control points, which err by 32 of the extent, turn the tangent by: the degree times
+  /// two of them, over the length.
   Real rate_rounding(const Vector& x, const Vector& v) const {
     const Real half = std::numeric_limits<Real>::epsilon() / Real(2);
     const auto size = [](const Real& a) { return a < Real(0) ? -a : a; };
     const Real largest = size(first.x) + size(first.y) + size(second.x) + size(second.y);
     const Real speed = size(v.x) + size(v.y);
-    if (graph) return Real(80) * half * speed + graph->bend * rounding(x) * speed;
+    if (graph)
+      return speed * (Real(80) * half + graph->bend * rounding(x) +
+                      Real(64 * graph->degree) * half * graph->extent / graph->length());
     if (!conic) return Real(8) * half * largest * speed;
     const Real reach = size(x.x) + size(x.y) + size(origin.x) + size(origin.y);
     return Real(32) * half * (largest * reach) * (largest * speed);

@@ -34,6 +34,9 @@ void bound(Barrier<Real>& b, const geometry::BasicVector<Real>& low,
   b.high = high + Vector{wider, wider};
   b.slack =
       Barrier<Real>::on_wall() * b.rounding({larger(b.low.x, b.high.x), larger(b.low.y, b.high.y)});
+  // Near the origin roundings are those of the rest of a curve.
+  b.low = b.low - Vector{b.slack, b.slack};
+  b.high = b.high + Vector{b.slack, b.slack};
 }
 
 /// Of a segment, or a conic or an arc of one.
@@ -99,7 +102,7 @@ Barrier<Real> of_part(const geometry::Bezier& curve, const CurvePart& part,
                       const geometry::BasicVector<Real>& shift) {
   using Vector = geometry::BasicVector<Real>;
   const FramedGraph<Real> framed(curve, part);
-  const Vector start = exact<Real>(curve.from) + shift;
+  const Vector start = exact<Real>(framed.base) + shift;
   Barrier<Real> b;
   b.graph = std::make_shared<const CurveGraph<Real>>(framed.graph);
   b.begins_wall = part.from == 0.0;

@@ -33,7 +33,7 @@ struct CurveGraph {
   std::array<Vector, geometry::Bezier::most + 1> control{};  ///< (s, y); the first is the origin
   Real slope{0}, bend{0}, turn{0};                           ///< bounds of |h'|, |h''| and |h'''|
   Real lowest{0}, highest{0};                                ///< h lies between them
-  Real extent{0};  ///< largest 1-norm of the whole curve's points from its start
+  Real extent{0};  ///< largest 1-norm of the whole curve's points from that end
 
   const Real& length() const { return control[static_cast<std::size_t>(degree)].x; }
   struct Place {
@@ -90,22 +90,25 @@ struct CurveGraph {
   }
 };
 
-/// A part in the frame of its chord. Points are from where the curve starts.
+/// A part in the frame of its chord. Points are from the curve's nearer end, so that those beside
+/// it are fine.
 template <class Real>
 struct FramedGraph {
   using Vector = geometry::BasicVector<Real>;
 
   CurveGraph<Real> graph;
+  geometry::Vector base;                                  ///< that end
   std::array<Vector, geometry::Bezier::most + 1> points;  ///< the part's control points
   Vector along, across;                                   ///< unit vectors of the chord
 
-  FramedGraph(const geometry::Bezier& curve, const CurvePart& part) {
+  FramedGraph(const geometry::Bezier& curve, const CurvePart& part)
+      : base(part.from < 0.5 ? curve.from : curve.to) {
     using std::sqrt;
     const std::size_t d = static_cast<std::size_t>(curve.degree);
     const auto exact = [](const geometry::Vector& a) { return Vector{Real(a.x), Real(a.y)}; };
     std::array<Vector, geometry::Bezier::most + 1> all;
     for (std::size_t k = 0; k <= d; ++k) {
-      all[k] = exact(curve.control(static_cast<int>(k))) - exact(curve.from);
+      all[k] = exact(curve.control(static_cast<int>(k))) - exact(base);
       graph.extent = larger(graph.extent, norm(all[k]));
     }
     // The curve's polar form at the part's ends, as often the one as the other.
