@@ -59,6 +59,7 @@ constexpr const char* start_of_module =
     "sys.unraisablehook = again\n"
     "for one in signals:\n"
     "  if signal.getsignal(one) is not signal.SIG_IGN: signal.signal(one, stop)\n"
+    "signal.pthread_sigmask(signal.SIG_UNBLOCK, signals)\n"
     "try:\n"
     "  import matplotlib, carom.picture\n"
     "except Exception:\n"
@@ -107,8 +108,9 @@ class Passing {
     for (std::size_t i = 0; i < before_.size(); ++i) ::sigaction(numbers[i], &before_[i], nullptr);
   }
 
- private:
   static constexpr std::array numbers{SIGINT, SIGTERM, SIGHUP};
+
+ private:
   std::array<struct sigaction, numbers.size()> before_{};
 };
 
@@ -142,9 +144,18 @@ Drawn run_and_wait(const std::vector<std::string>& words) {
   arguments.push_back(nullptr);
   ::setenv("PYTHONPATH", module_path().c_str(), 1);
   const Passing passing;
+  // Python itself would report them while it starts: they wait until it can deal with them.
+  sigset_t held;
+  sigemptyset(&held);
+  for (const int number : Passing::numbers) sigaddset(&held, number);
+  posix_spawnattr_t how;
+  ::posix_spawnattr_init(&how);
+  ::posix_spawnattr_setsigmask(&how, &held);
+  ::posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGMASK);
   pid_t child = 0;
-  if (::posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments.data(), environ) != 0)
-    return {};
+  const int failed = ::posix_spawnp(&child, arguments[0], nullptr, &how, arguments.data(), environ);
+  ::posix_spawnattr_destroy(&how);
+  if (failed != 0) return {};
   painter = child;
   if (signalled) ::kill(child, SIGTERM);  // it came before there was a process
   return wait_for(child);
