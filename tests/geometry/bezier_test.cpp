@@ -1,5 +1,5 @@
-// Straight flights and Larmor circles against Bézier curves: the filter, the exact stage, and roots
-// found by signs in 500 digits, which share nothing with either.
+// Straight flights and Larmor circles against Bézier curves: the filter, the exact stage, CGAL's
+// algebraic kernel, and roots found by signs in 500 digits, which share nothing with each other.
 #include <gtest/gtest.h>
 
 #include <boost/multiprecision/mpfr.hpp>
@@ -10,6 +10,7 @@
 #include "carom/geometry/bezier_flight.hpp"
 #include "carom/geometry/exact_flight.hpp"
 #include "carom/geometry/region.hpp"
+#include "geometry/bezier_oracle.hpp"
 #include "random_tables.hpp"
 
 namespace carom::geometry {
@@ -218,6 +219,33 @@ TEST(BezierFlights, FilterAndExactStageAgree) {
       EXPECT_GT(t.exits, t.cases / 10);
       EXPECT_GT(t.decided, t.cases * 3 / 4);  // of adversarial flights
     }
+}
+
+TEST(BezierFlights, ExactStageAndCgalAgree) {
+  Dice dice{std::mt19937_64(5)};
+  int exits = 0;
+  for (long i = 0; i < tests::cases(40, 20000); ++i) {
+    const Bezier curve = random_curve(dice, 1.0);
+    const CurveFrame frame = frame_of(curve);
+    const ExactBoundary boundary({{curve, {}, -1, false}}, {}, {});
+    for (int k = 0; k < 6; ++k) {
+      const Flight f = random_flight(dice, frame, 1.0, k % 2 == 1);
+      if (f.on >= 0.0 && boundary.inward(0, f.on, f.v) != Sign::positive) continue;
+      if (f.on < 0.0 && (side_of_flight(f.v, curve.from - f.start, f.omega) == 0.0 ||
+                         side_of_flight(f.v, curve.to - f.start, f.omega) == 0.0))
+        continue;  // at a joint, to rounding: there is no other wall here
+      const ExactFlight exact(boundary, f.on < 0.0 ? -1 : 0, f.on, f.start, f.v, f.omega);
+      const ExactFlight::First first = exact.first({0}, {}, -1, f.on < 0.0 ? -1 : 0, -1);
+      const bool leaves = first.kind == ExactFlight::First::Kind::exit;
+      const std::optional<double> other =
+          tests::first_exit_by_kernel(curve, f.start, f.v, f.omega, f.on);
+      EXPECT_EQ(other.has_value(), leaves) << i << " " << k;
+      if (!other || !leaves) continue;
+      ++exits;
+      EXPECT_NEAR(*other, first.u, 1e-12) << i << " " << k;
+    }
+  }
+  EXPECT_GT(exits, 30);
 }
 
 TEST(BezierFlights, CurvesThatRestAtAnEndAreKnownThere) {
