@@ -21,10 +21,6 @@ class WallOrbit final : public certify::FollowedOrbit {
  public:
   WallOrbit(const ExactSystem& system, const CertifiedTask& task, std::function<bool()> interrupted)
       : system_(system), task_(task), interrupted_(std::move(interrupted)) {
-    if (task.collisions == 0 && !task.t_max)
-      throw InputError(Place{}, "a certified orbit without an end",
-                       "a number of collisions or a last time");
-    check_digits(static_cast<std::uint64_t>(std::max(task.digits, 0)), *system.table);
     check_field();
     certify::check_system(system_);
     // A first attempt of few bits sees the table and the start, and looks ahead.
@@ -375,6 +371,10 @@ class WallOrbit final : public certify::FollowedOrbit {
 CertifiedOrbit::CertifiedOrbit(const ExactSystem& system, const CertifiedTask& task,
                                std::function<bool()> interrupted) {
   if (system.table) refuse_all_but_mirrors(*system.table, "guaranteed digits");
+  if (task.collisions == 0 && !task.t_max)
+    throw InputError(Place{}, "a certified orbit without an end",
+                     "a number of collisions or a last time");
+  check_digits(static_cast<std::uint64_t>(std::max(task.digits, 0)), *system.table);
   if (auto curve = certify::CurveOfFormulas::of(*system.spec))
     implementation_ =
         certify::orbit_along_curve(system, task, std::move(interrupted), std::move(*curve));

@@ -32,7 +32,8 @@ class CurveOrbit final : public FollowedOrbit {
         curve_(std::move(curve)) {
     check();
     const double hits = task_.collisions > 0 ? static_cast<double>(task_.collisions) : 16.0;
-    restart(static_cast<double>(task_.digits) * bits_a_digit + 64.0 + 4.0 * hits);
+    restart(std::min(static_cast<double>(task_.digits) * bits_a_digit + 64.0 + 4.0 * hits,
+                     static_cast<double>(task_.most_bits)));
   }
 
   std::optional<CertifiedHit> next() override {
