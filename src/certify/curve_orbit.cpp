@@ -254,7 +254,8 @@ class CurveOrbit final : public FollowedOrbit {
   struct Bracket {
     double before, after, about;
   };
-  /// The parameter there, by Newton's steps in doubles that do not leave the bracket.
+  /// The parameter there, by Newton's steps in doubles that do not leave the bracket. It is where
+  /// the search with balls begins, so that how near it comes decides nothing.
   template <class Side, class Slope>
   double refined(const Bracket& bracket, const Side& side, const Slope& slope) const {
     const Precision precision(64);
@@ -300,7 +301,7 @@ class CurveOrbit final : public FollowedOrbit {
         along_piece(c, a + b + c, from, side, offer);
         continue;
       }
-      // From between the curve and its chord.
+      // From between the curve and its chord: this comes before all others.
       const double height = cross(side, -from), share = dot(side, -from) / dot(side, side);
       if (height < 0.0 && share > 0.0 && share < 1.0 && cross(side, d) < 0.0 &&
           height * height < dot(side, side) * bulge_of(curve))

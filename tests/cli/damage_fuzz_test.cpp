@@ -19,6 +19,7 @@
 #include "carom/base/error.hpp"
 #include "carom/files/archive.hpp"
 #include "carom/files/ensembles.hpp"
+#include "damaged.hpp"
 #include "files/hdf5/checksums.hpp"
 #include "program.hpp"
 #include "systems.hpp"
@@ -29,18 +30,7 @@ namespace {
 const bool soak = std::getenv("CAROM_SOAK") != nullptr;
 const int by_readers = soak ? 4000 : 200, by_program = soak ? 500 : 12;
 
-// A small generator, so that the cases are the same everywhere.
-class Cases {
- public:
-  explicit Cases(std::uint64_t seed) : state_(seed) {}
-  std::size_t below(std::size_t n) {
-    state_ = state_ * 6364136223846793005u + 1442695040888963407u;
-    return static_cast<std::size_t>(state_ >> 33) % n;
-  }
-
- private:
-  std::uint64_t state_;
-};
+using tests::Cases;
 
 const char* const ways[] = {"flipped", "filled", "copied"};
 

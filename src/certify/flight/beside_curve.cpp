@@ -39,7 +39,7 @@ class Winding {
     return sign(e.x) == Sign::negative ? Sign::positive : Sign::undecided;
   }
   bool count(double a, Sign from, double b, Sign to, int depth) {
-    const double half = 0.5 * (b - a) + 0x1p-52;  // as the middle is rounded
+    const double half = 0.5 * (b - a) + 0x1p-52;  // more than rounding takes from parts of [0, 1]
     const BallVector e = seen(curve_.at(parameter_of(curve_, 0.5 * (a + b), half)).point);
     const Sign side = sign(e.y);
     if (side == Sign::positive || side == Sign::negative || sign(e.x) == Sign::negative)
