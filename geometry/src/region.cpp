@@ -19,6 +19,16 @@ namespace carom::geometry {
 
 namespace {
 
+/// Is the loop inside `around`? They do not cross, so any point that is not on `around` tells.
+bool lies_inside(const Loop& loop, const ExactLoop& around) {
+  for (int n = 0; n < 8; ++n)
+    for (const NamedCurve& c : loop) {
+      const ExactPoint p = sample_point(ExactCurve(c.curve), end_parameter(c.curve), n);
+      if (!around.on_boundary(p)) return around.inside(p);
+    }
+  return false;
+}
+
 /// One piece, as itself (copy 0) or repeated by the lattice.
 struct Item {
   std::size_t loop, piece, copy;
@@ -292,16 +302,6 @@ class Check {
     }
   }
 
-  /// Is the loop inside `around`? They do not cross, so any point that is not on `around` tells.
-  bool lies_inside(std::size_t loop, const ExactLoop& around) const {
-    for (int n = 0; n < 8; ++n)
-      for (const NamedCurve& c : loops_[loop]) {
-        const ExactPoint p = sample_point(ExactCurve(c.curve), end_parameter(c.curve), n);
-        if (!around.on_boundary(p)) return around.inside(p);
-      }
-    return false;
-  }
-
   void nesting() {
     std::vector<Box> boxes;
     std::vector<std::size_t> whose;
@@ -309,7 +309,7 @@ class Check {
       if (outer_ && l == *outer_) continue;
       boxes.push_back(loop_boxes_[l]);
       whose.push_back(l);
-      if (!outer_ || lies_inside(l, exact_loop(*outer_, 0))) continue;
+      if (!outer_ || lies_inside(loops_[l], exact_loop(*outer_, 0))) continue;
       const NamedCurve& c = loops_[l][0];
       faults_.add(Kind::nesting, c.name, loops_[*outer_][0].name, start_point(c.curve),
                   "the obstacle " + loop_text(l) + " lies outside the outer loop");
@@ -318,7 +318,8 @@ class Check {
       for (const auto& [inner, outer] : {std::pair{i, j}, std::pair{j, i}}) {
         const std::size_t a = whose[inner], b = whose[outer];
         if (is_disc({a, 0, 0}) && is_disc({b, 0, 0})) continue;  // told by their distance
-        if (!within(boxes[inner], boxes[outer]) || !lies_inside(a, exact_loop(b, 0))) continue;
+        if (!within(boxes[inner], boxes[outer]) || !lies_inside(loops_[a], exact_loop(b, 0)))
+          continue;
         const NamedCurve& c = loops_[a][0];
         faults_.add(Kind::nesting, c.name, loops_[b][0].name, start_point(c.curve),
                     "the obstacle " + loop_text(a) + " lies inside the obstacle " + loop_text(b));
@@ -348,7 +349,7 @@ class Check {
 
   void inside_copy(std::size_t inner, std::size_t outer, Vector by, const DyadicVector& exact_by) {
     if (!within(loop_boxes_[inner], moved(loop_boxes_[outer], by))) return;
-    if (!lies_inside(inner, ExactLoop(loops_[outer], exact_by))) return;
+    if (!lies_inside(loops_[inner], ExactLoop(loops_[outer], exact_by))) return;
     const NamedCurve& c = loops_[inner][0];
     faults_.add(Kind::nesting, c.name, loops_[outer][0].name, start_point(c.curve),
                 "the obstacle " + loop_text(inner) + " lies inside a copy of the obstacle " +
@@ -373,6 +374,10 @@ class Check {
 std::vector<RegionFault> check_region(const std::vector<Loop>& loops, RegionKind kind,
                                       const std::optional<Lattice>& lattice, std::size_t limit) {
   return Check(loops, kind, lattice, limit).run();
+}
+
+bool lies_inside(const Loop& loop, const Loop& around) {
+  return lies_inside(loop, ExactLoop(around, {}));
 }
 
 }  // namespace carom::geometry

@@ -214,8 +214,9 @@ class System:
         return self._append(toml.section("table.wall", {"wall": wall, "law": law, **keys}, True))
 
     @of_keywords
-    def region(self, wall, **keys) -> "System":
-        """Particles pass that wall of an obstacle. index, potential (energy), B: within; reflection:
+    def region(self, wall=None, **keys) -> "System":
+        """Particles enter the obstacle of that wall; or without one what is on the left of an edge, {start,
+        pieces}, from one corner of the table to another. index, potential (energy), B: within; reflection:
         "none", "s" or "p"."""
         return self._append(toml.section("table.region", {"wall": wall, **keys}, True))
 

@@ -68,7 +68,7 @@ def _walls(loaded, walls, ax, cells, style):
     from matplotlib.path import Path
 
     edges = _carom.cell(loaded)
-    loops = _loops([piece for _, pieces, holes, _ in walls for piece in (*pieces, *(p for _, p in holes))])
+    loops = _filled(_carom.parts(loaded))
     around = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)] if edges else [(0, 0)]
     near = {(a + i, b + j) for a, b in cells for i, j in around}
     shown = None
@@ -82,17 +82,10 @@ def _walls(loaded, walls, ax, cells, style):
     reach = numpy.concatenate(outlines) if shown else None
     for shift in _carom.translations(loaded, sorted(near)):
         drawn = []
-        for loop in loops:
-            if shown and not _touch(loop + shift, reach):
-                continue
-            inside = _area(loop) > 0  # walls run with the table on their left
-            patch = PathPatch(Path(loop + shift, closed=True), linewidth=0, zorder=0.2)
-            patch.set_facecolor(_SPACE if inside else _MATTER)
-            drawn.append(ax.add_patch(patch))
-        for loop in _loops(_carom.regions(loaded)):
+        for loop, colour in loops:
             if not shown or _touch(loop + shift, reach):
                 path = Path(loop + shift, closed=True)
-                drawn.append(ax.add_patch(PathPatch(path, linewidth=0, zorder=0.3, facecolor=_REGION)))
+                drawn.append(ax.add_patch(PathPatch(path, linewidth=0, zorder=0.2, facecolor=colour)))
         for _, pieces, holes, entered in walls:
             for piece in pieces:
                 if shown and not _touch(piece + shift, reach):
@@ -112,6 +105,17 @@ def _walls(loaded, walls, ax, cells, style):
         ax.relim()
         ax.dataLim.set_points(numpy.stack([f(numpy.concatenate(outlines), axis=0) for f in (numpy.min, numpy.max)]))
         ax.autoscale_view()
+
+
+def _filled(parts):
+    """Closed lines and the colour within: of the parts of a table, smaller ones later."""
+    loops = []
+    for number, part in enumerate(parts):
+        for loop in _loops(part):
+            inside = _area(loop) > 0  # walls run with the table on their left
+            loops.append((loop, (_REGION if number else _SPACE) if inside else _MATTER))
+    # An obstacle that is a region is both, and is shown as the region.
+    return sorted(loops, key=lambda one: (-float(f"{abs(_area(one[0])):.9g}"), one[1] == _REGION))
 
 
 def _touch(points, others):

@@ -60,12 +60,14 @@ std::vector<Vector> piece(const geometry::Curve& curve, double u, double v) {
   return points;
 }
 
-// Of every wall: its name, its pieces, its holes with their names, and whether it is the edge of a
-// region.
+// Of every wall, and of the edges of regions once: its name, its pieces, its holes with their
+// names, and whether it is such an edge.
 py::list walls(const Loaded& loaded) {
   const Table& table = *loaded.system().table;
   py::list all;
-  for (const Wall& wall : seen_from(table, -1).walls) {
+  for (std::size_t w = 0; w < table.walls.size(); ++w) {
+    if (is_inner_side(table, static_cast<int>(w))) continue;
+    const Wall& wall = table.walls[w];
     py::list pieces, holes;
     const double last = geometry::end_parameter(wall.curve);
     double from = 0.0;
@@ -76,18 +78,21 @@ py::list walls(const Loaded& loaded) {
       from = hole.to;
     }
     if (from < last) pieces.append(pairs(piece(wall.curve, from, last)));
-    all.append(py::make_tuple(wall.name, pieces, holes, wall.twin >= 0));
+    all.append(py::make_tuple(wall.name, pieces, holes, is_passed(wall)));
   }
   return all;
 }
 
-// The walls of all regions.
-py::list regions(const Loaded& loaded) {
+// The walls around what is outside of all regions, and around each region.
+py::list parts(const Loaded& loaded) {
   const Table& table = *loaded.system().table;
   py::list all;
-  for (std::size_t r = 0; r < table.regions.size(); ++r)
-    for (const Wall& wall : seen_from(table, static_cast<int>(r)).walls)
-      all.append(pairs(piece(wall.curve, 0.0, geometry::end_parameter(wall.curve))));
+  for (int r = -1; r < static_cast<int>(table.regions.size()); ++r) {
+    py::list part;
+    for (const Wall& wall : seen_from(table, r).walls)
+      part.append(pairs(piece(wall.curve, 0.0, geometry::end_parameter(wall.curve))));
+    all.append(part);
+  }
   return all;
 }
 
@@ -265,7 +270,7 @@ py::object potential(const Loaded& loaded, const std::vector<double>& xs,
 void add_pictures(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(PathPoint, t, x, y);
   module.def("walls", &walls, py::arg("system"));
-  module.def("regions", &regions, py::arg("system"));
+  module.def("parts", &parts, py::arg("system"));
   module.def("cell", &cell, py::arg("system"));
   module.def("translations", &translations, py::arg("system"), py::arg("cells"));
   module.def("path", &path, py::arg("system"), py::arg("particle"), py::arg("free"),

@@ -128,12 +128,12 @@ void refuse_all_but_mirrors(const Table& table, const char* what) {
                        "wall '" + wall.name + "' reflects at random, and there are no " + what +
                            " with such walls",
                        "law = \"specular\"");
-    if (wall.twin >= 0)
-      throw InputError(Place{"", 0, 0, "table.region"},
-                       "particles pass wall '" + wall.name + "' of a region, and there are no " +
-                           what + " with such walls",
-                       "no [[table.region]]");
   }
+  if (!table.regions.empty())
+    throw InputError(
+        Place{"", 0, 0, "table.region"},
+        std::string("particles enter regions of the table, and there are no ") + what + " there",
+        "no [[table.region]]");
   for (const Hole& hole : table.holes)
     if (hole.transmission < 1.0)
       throw InputError(Place{"", 0, 0, "table.hole"},
@@ -176,10 +176,10 @@ Table build_table(const TableSpec& spec) {
   if (shape.lattice) shapes::set_lattice(table, *shape.lattice, shapes::point(shape.cell_centre));
   if (spec.lattice) shapes::repeat(*spec.lattice, table);
   check_names(spec, table);
-  if (!table.walls.empty()) shapes::check_region(spec, table);
+  const bool nested = !table.walls.empty() && shapes::check_region(spec, table);
   shapes::refuse_misplaced(spec, table);
+  if (!spec.regions.empty()) shapes::divide(spec, table, nested);
   shapes::add_holes(spec, table);
-  shapes::add_regions(spec, table);
   shapes::add_laws(spec, table);
   return table;
 }

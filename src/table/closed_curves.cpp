@@ -105,11 +105,10 @@ Chain turned(Chain chain, bool clockwise) {
   return (clockwise ? area <= 0.0 : area >= 0.0) ? chain : reversed(std::move(chain));
 }
 
-Chain loop_of_pieces(const LoopSpec& loop, const std::function<std::string(std::size_t)>& name) {
+Chain chain_of_pieces(const LoopSpec& loop, const std::function<std::string(std::size_t)>& name) {
   if (loop.pieces.empty())
     throw InputError(loop.place, "the loop has no pieces", "a list of pieces");
-  const Vector start = point(loop.start);
-  Vector from = start;
+  Vector from = point(loop.start);
   ExactPoint written_from = loop.start;
   Chain chain;
   for (const PieceSpec& piece : loop.pieces) {
@@ -122,7 +121,12 @@ Chain loop_of_pieces(const LoopSpec& loop, const std::function<std::string(std::
     from = to;
     written_from = piece.to;
   }
-  if (!(from == start)) {
+  return chain;
+}
+
+Chain loop_of_pieces(const LoopSpec& loop, const std::function<std::string(std::size_t)>& name) {
+  Chain chain = chain_of_pieces(loop, name);
+  if (!(point(loop.pieces.back().to) == point(loop.start))) {
     throw InputError(loop.pieces.back().place,
                      "the path is open: it ends at (" + loop.pieces.back().to.x.text() + ", " +
                          loop.pieces.back().to.y.text() + ")",

@@ -47,7 +47,9 @@ ClosedCurve drawn_parametric(const WrittenFormula& x, const WrittenFormula& y,
 /// The periodic cubic spline through points; wall k leads from point k to the next or back. A fault
 /// that is none of a point is at `place`.
 Chain spline(const std::vector<ExactPoint>& points, const Place& place, const Layout&);
-/// The pieces of a loop in their order; `name(k)`: of piece k where it has none of its own.
+/// The pieces of a path in their order; `name(k)`: of piece k where it has none of its own.
+Chain chain_of_pieces(const LoopSpec&, const std::function<std::string(std::size_t)>& name);
+/// The same of a path that is closed.
 Chain loop_of_pieces(const LoopSpec&, const std::function<std::string(std::size_t)>& name);
 
 /// The area within, negative where the chain runs clockwise.

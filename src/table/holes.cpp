@@ -22,7 +22,11 @@ class Opening {
         name_(name),
         wall_(wall),
         table_(table),
-        curve_(table.walls[wall_index()].curve) {}
+        curve_(table.walls[wall_index()].curve) {
+    if (table.walls[wall_index()].twin >= 0)
+      throw InputError(hole.wall_place, "particles pass wall '" + hole.wall + "' of a region",
+                       "a hole of another wall");
+  }
 
   void cut() {
     const double length = geometry::length(curve_);
@@ -135,15 +139,16 @@ void add_laws(const TableSpec& spec, Table& table) {
       throw InputError(law.place, "walls that change speeds beside regions that change them",
                        "another law, or no [[table.region]]");
     const int named = law.wall.empty() ? -1 : named_wall(law.wall, law.wall_place, table);
-    if (named >= 0 && table.walls[static_cast<std::size_t>(named)].twin >= 0)
-      throw InputError(law.wall_place, "particles pass wall '" + law.wall + "' of a region",
-                       "the law of another wall");
-    for (std::size_t k = 0; k < table.walls.size(); ++k)
-      if (named < 0 ? table.walls[k].twin < 0 : static_cast<std::size_t>(named) == k) {
-        table.walls[k].specularity = law.specularity;
-        table.walls[k].roughness = law.roughness;
-        table.walls[k].temperature = law.temperature;
-      }
+    // The edge of a region that is given a law is a wall, from either side.
+    const int other = named < 0 || table.wall(named).closed ? -1 : table.wall(named).twin;
+    for (int k = 0; k < static_cast<int>(table.walls.size()); ++k) {
+      Wall& wall = table.walls[static_cast<std::size_t>(k)];
+      if (named < 0 ? is_passed(wall) : k != named && k != other) continue;
+      wall.closed = wall.twin >= 0;
+      wall.specularity = law.specularity;
+      wall.roughness = law.roughness;
+      wall.temperature = law.temperature;
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 // The exact check that the walls bound a region.
 #include "carom/geometry/region.hpp"
 
+#include <algorithm>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -82,20 +83,17 @@ Place place_of_wall(const TableSpec& spec, const Table& table, std::size_t wall)
   return spec.place;
 }
 
-void check_region(const TableSpec& spec, const Table& table) {
-  const auto faults =
-      geometry::check_region(loops_of(table), kind_of(table.extent), table.lattice, 3);
-  if (faults.empty()) return;
+namespace {
+
+/// Of faults that are some.
+[[noreturn]] void refuse(const std::vector<geometry::RegionFault>& faults, const Table& table,
+                         const std::function<Place(const std::string&)>& place_of) {
   std::string problem;
   for (const geometry::RegionFault& fault : faults) {
     problem.append(problem.empty() ? "" : "; ").append(fault.sentence);
   }
   // If two walls cross, the fault is placed at the one that is written later: it belongs to the
   // obstacle. The other's place is added.
-  const auto place_of = [&](const std::string& name) {
-    const int wall = table.wall_index(name);
-    return wall < 0 ? spec.place : place_of_wall(spec, table, static_cast<std::size_t>(wall));
-  };
   const std::string *later = &faults.front().first, *earlier = &faults.front().second;
   Place place = place_of(*later);
   if (!earlier->empty()) {
@@ -113,6 +111,30 @@ void check_region(const TableSpec& spec, const Table& table) {
   throw InputError(
       place, problem,
       "closed loops that do not cross, outer ones counter-clockwise, obstacles clockwise");
+}
+
+std::vector<geometry::RegionFault> faults_of(const Table& table) {
+  return geometry::check_region(loops_of(table), kind_of(table.extent), table.lattice, 3);
+}
+
+}  // namespace
+
+bool check_region(const TableSpec& spec, const Table& table) {
+  const auto faults = faults_of(table);
+  if (faults.empty()) return false;
+  const auto place_of = [&](const std::string& name) {
+    const int wall = table.wall_index(name);
+    return wall < 0 ? spec.place : place_of_wall(spec, table, static_cast<std::size_t>(wall));
+  };
+  const bool nested = std::all_of(faults.begin(), faults.end(), [](const auto& fault) {
+    return fault.kind == geometry::RegionFault::Kind::nesting;
+  });
+  if (!nested || spec.regions.empty()) refuse(faults, table, place_of);
+  return true;
+}
+
+void check_part(const Table& part, const std::function<Place(const std::string&)>& place_of) {
+  if (const auto faults = faults_of(part); !faults.empty()) refuse(faults, part, place_of);
 }
 
 }  // namespace carom::table::shapes

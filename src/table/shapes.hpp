@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -122,8 +123,9 @@ void add_holes(const TableSpec& spec, Table& table);
 void add_laws(const TableSpec& spec, Table& table);
 /// The wall of that name; InputError at the place where there is none.
 int named_wall(const std::string& name, const Place& place, const Table& table);
-/// Walls that particles pass get a twin each, which is seen from within.
-void add_regions(const TableSpec& spec, Table& table);
+/// Divides a table into its regions and what is outside of them. Walls that particles pass get a
+/// twin each, which is seen from within. `nested`: obstacles lie in obstacles.
+void divide(const TableSpec& spec, Table& table, bool nested);
 
 /// Are arcs bent enough, ellipses thick and circles large enough for hits in doubles?
 /// docs/physics/exactness.md, Flat arcs and Thin walls.
@@ -131,7 +133,10 @@ void refuse_misplaced(const TableSpec& spec, const Table& table);
 /// Where a wall was written: its obstacle, corner, centre or piece if it has one, else the table.
 Place place_of_wall(const TableSpec& spec, const Table& table, std::size_t wall);
 
-/// Is the table a region: closed, simple, oriented, obstacles inside and apart? Exact.
-void check_region(const TableSpec& spec, const Table& table);
+/// Is the table a region: closed, simple, oriented, obstacles inside and apart? Exact. True if it
+/// is but for obstacles inside obstacles, which may be regions.
+bool check_region(const TableSpec& spec, const Table& table);
+/// The same of a part of a table, whose walls have their places by name.
+void check_part(const Table& part, const std::function<Place(const std::string&)>& place_of);
 
 }  // namespace carom::table::shapes

@@ -345,7 +345,6 @@ TEST(Regions, AreRefusedWhereTheyMeanNothing) {
         box(disc, of_disc + "potential = 0.6\n"), box(disc, of_disc + "reflection = \"q\"\n"),
         box(disc, of_disc + "potential = 0.1\nreflection = \"p\"\n"),
         box(disc, of_disc + "[[table.region]]\n" + of_disc),
-        box(disc, of_disc, "[[table.wall]]\nlaw = \"diffuse\"\nwall = \"disc\"\n"),
         box(disc, of_disc, "[[table.hole]]\nwall = \"disc\"\ncenter = 1\nwidth = 0.5\n"),
         box(disc, of_disc,
             "[[potential]]\nkind = \"harmonic\"\nomega = 1\n[integrator]\nstep = 0.01\n")})

@@ -38,6 +38,7 @@ struct Wall {
   double temperature = 0.0;
   /// The same piece of curve seen from the other side, of a wall between two regions; -1: none.
   int twin = -1;
+  bool closed = false;     ///< It has a twin, but nobody passes.
   std::vector<int> holes;  ///< indices into Table::holes, ordered by parameter
 };
 
@@ -45,11 +46,11 @@ struct Wall {
 /// cell of a lattice whose edges lead to the neighbouring cells.
 enum class Extent { bounded, open_plane, lattice };
 
-/// What is within a closed loop of walls that particles pass: another magnetic field, another
-/// potential or another refractive index (docs/physics/regions.md).
+/// A part of the table with another magnetic field, another potential or another refractive index,
+/// behind walls that particles pass (docs/physics/regions.md).
 struct Region {
   /// Its walls as seen from within, one after the other in Table::walls, behind all that are seen
-  /// from outside.
+  /// from outside of all regions.
   int first = 0, count = 0;
   std::optional<double> field;  ///< B; none: as outside
   double index = 1.0;      ///< refractive index relative to the outside: the speed is speed/index
@@ -85,10 +86,14 @@ struct Table {
   int hole_index(const std::string& name) const;
 };
 
+/// Do particles pass that wall?
+inline bool is_passed(const Wall& wall) { return wall.twin >= 0 && !wall.closed; }
 /// The number of the region that a wall is seen from, -1: from outside of all.
 int region_of(const Table&, int wall);
 /// The walls that are seen from a region (-1: from outside of all), as a table of its own.
 Table seen_from(const Table&, int region);
+/// Is the wall that side of a region's edge that is seen from within?
+bool is_inner_side(const Table&, int wall);
 
 /// Is what happens at a wall random?
 bool scatters(const Table&);

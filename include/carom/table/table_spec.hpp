@@ -94,7 +94,8 @@ struct WallLawSpec {
 
 /// A region as the system file gives it.
 struct RegionSpec {
-  std::string wall;  ///< one of its walls
+  std::string wall;  ///< of the obstacle that it fills; "" : it lies on the left of `edge`
+  LoopSpec edge;     ///< from a corner of the walls to another one
   ExactNumber index, potential;
   std::optional<ExactNumber> field;
   std::string reflection;

@@ -116,8 +116,9 @@ std::string table_text(const System& system, const TableMeasure& measured,
     if (wall.temperature > 0.0)
       text += fmt::format("  wall '{}' has the temperature {:.6g}\n", wall.name, wall.temperature);
   for (const Region& region : table.regions) {
-    const std::string& inner = table.walls[static_cast<std::size_t>(region.first)].name;
-    text += fmt::format("  region behind '{}': ", inner.substr(0, inner.rfind('.')));
+    int inner = region.first;
+    while (!is_inner_side(table, inner)) ++inner;
+    text += fmt::format("  region behind '{}': ", table.wall(table.wall(inner).twin).name);
     if (region.potential != 0.0)
       text += fmt::format("potential {:.6g}", region.potential);
     else

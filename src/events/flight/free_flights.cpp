@@ -20,15 +20,22 @@ FreeFlights::FreeFlights(const PieceTable& seen, const Table& inside, const Forc
       inside_(inside) {
   for (int r = 0; media_ && r < media_->size(); ++r)
     media_of_table_.push_back({HitFinder(media_->pieces_of(r)), nullptr});
-  scattering_.any = scatters(seen.table);
+  scattering_.any = scatters(media_ ? media_->table() : seen.table);
   scattering_.thermal = is_thermal(seen.table);
-  const std::vector<Wall>& walls = seen.table.walls;
+  add_corners(pieces());
+  for (int r = 0; media_ && r < media_->size(); ++r) add_corners(media_->pieces_of(r));
+}
+
+void FreeFlights::add_corners(const PieceTable& pieces) {
+  const std::vector<Wall>& walls = pieces.table.walls;
   for (std::size_t i = 0; i < walls.size(); ++i) {
     const Wall& w = walls[i];
-    corners_.push_back(w.next == static_cast<int>(i) && geometry::is_closed(w.curve) ? 0
+    const bool none = (w.next == static_cast<int>(i) && geometry::is_closed(w.curve)) ||
+                      is_passed(w) || is_passed(walls[base::at(w.previous)]);
+    corners_.push_back(none ? 0
                        : w.corner > 0
                            ? w.corner
-                           : pieces().exact->corner(w.previous, static_cast<int>(i)).order);
+                           : pieces.exact->corner(w.previous, static_cast<int>(i)).order);
   }
 }
 
@@ -98,9 +105,9 @@ bool FreeFlights::lets_pass(int index, const Body& b, int hole) const {
 
 /// By Lambert's law the sine of the angle to the normal is uniform (docs/physics/scattering.md).
 /// Where the velocity is not one into the domain, as at a corner, the next two numbers are tried.
-Vector FreeFlights::scattered(int index, Body& b, const PieceTable::Landing& landing,
-                              Vector mirrored) {
-  const Wall& wall = pieces().table.walls[base::at(landing.wall)];
+Vector FreeFlights::scattered(int index, Body& b, const PieceTable& pieces,
+                              const PieceTable::Landing& landing, Vector mirrored) {
+  const Wall& wall = pieces.table.walls[base::at(landing.wall)];
   const bool rough = wall.roughness > 0.0, thermal = wall.temperature > 0.0;
   if (!(wall.specularity < 1.0) && !rough && !thermal) return mirrored;
   const RandomStream::Block words = words_of(index, b, Purpose::scattering);
@@ -115,8 +122,8 @@ Vector FreeFlights::scattered(int index, Body& b, const PieceTable::Landing& lan
     const double turn = elementary::cos(3.141592653589793 * RandomStream::symmetric(words[2]));
     const Vector after =
         speed(words[0]) * inward + (turn * speed(words[1])) * geometry::right(inward);
-    if (pieces().inward(landing.wall, *landing.curve, landing.at.u, after, landing.at.normal,
-                        counts_) != Sign::positive)
+    if (pieces.inward(landing.wall, *landing.curve, landing.at.u, after, landing.at.normal,
+                      counts_) != Sign::positive)
       return mirrored;
     set_speed(b, std::sqrt(dot(after, after)));
     return after;
@@ -133,8 +140,8 @@ Vector FreeFlights::scattered(int index, Body& b, const PieceTable::Landing& lan
       velocity = b.particle.speed * (random * geometry::right(inward) + cosine * inward);
     }
     const Vector after = (1.0 + geometry::step_to_energy_shell(velocity, b.shell)) * velocity;
-    if (pieces().inward(landing.wall, *landing.curve, landing.at.u, after, landing.at.normal,
-                        counts_) == Sign::positive)
+    if (pieces.inward(landing.wall, *landing.curve, landing.at.u, after, landing.at.normal,
+                      counts_) == Sign::positive)
       return after;
   }
   return mirrored;

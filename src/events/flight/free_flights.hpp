@@ -93,12 +93,17 @@ class FreeFlights {
   };
   InRegion place_in_region(geometry::Vector point);
   bool outside_contains(geometry::Vector point);
-  geometry::Vector scattered(int index, Body& b, const PieceTable::Landing& landing,
-                             geometry::Vector mirrored);
+  geometry::Vector scattered(int index, Body& b, const PieceTable& pieces,
+                             const PieceTable::Landing& landing, geometry::Vector mirrored);
+  void add_corners(const PieceTable& pieces);
   static void set_speed(Body& b, double speed);
   static void put_on_edge(Body& b, Time now, const PieceTable::Landing& landing);
-  bool reflect(int index, Body& b, Time now, Observer& observer,
-               const PieceTable::Landing& landing);
+  /// At a wall of these pieces that the body does not pass. `first`: the number of their first wall
+  /// in the table, 0 outside of regions.
+  bool meet(int index, Body& b, Time now, Observer& observer, const PieceTable& pieces, int first,
+            PieceTable::Landing& landing);
+  bool reflect(int index, Body& b, Time now, Observer& observer, const PieceTable& pieces,
+               int first, const PieceTable::Landing& landing);
 
   HitFinder finder_;
   bool over_edges_;
@@ -115,7 +120,7 @@ class FreeFlights {
     std::unique_ptr<Locator> locator;
   };
   std::vector<Medium> media_of_table_;
-  std::vector<int> corners_;  ///< order n of the corner at each wall's start, 0: none
+  std::vector<int> corners_;  ///< order n of the corner at each wall's start, 0: no law holds
   DecisionCounts counts_;
   const Table& inside_;
   std::unique_ptr<Locator> locator_;  ///< made when it is asked for the first time
@@ -168,6 +173,7 @@ class FreeFlights {
 
 [[gnu::always_inline]] inline bool FreeFlights::reflect(int index, Body& b, Time now,
                                                         Observer& observer,
+                                                        const PieceTable& pieces, int first,
                                                         const PieceTable::Landing& landing) {
   const geometry::Vector before = landing.velocity;
   const geometry::Vector normal = landing.at.normal;
@@ -175,27 +181,27 @@ class FreeFlights {
   geometry::Vector after;
   int reflections = 1;
   if (b.ahead.kind == Ahead::Kind::joint) {
-    reflections = corners_[static_cast<std::size_t>(landing.wall)];
+    reflections = corners_[static_cast<std::size_t>(first + landing.wall)];
     if (reflections == 0) return bodies_.end(index, Fate::singular, now, observer), true;
-    const int previous = pieces().table.walls[static_cast<std::size_t>(landing.wall)].previous;
-    after = (1.0 + step) * motion::reflected_at_corner(before, pieces().normal_at_end(previous),
+    const int previous = pieces.table.walls[static_cast<std::size_t>(landing.wall)].previous;
+    after = (1.0 + step) * motion::reflected_at_corner(before, pieces.normal_at_end(previous),
                                                        normal, reflections);
   } else {
     after = geometry::reflected(before, normal, landing.at.factor, step);
   }
   if (scattering_.any) [[unlikely]] {
     const PieceTable::Landing there = landing;  // a copy, or the landing would live in memory
-    after = scattered(index, b, there, after);
+    after = scattered(index, b, pieces, there, after);
   }
-  Sign inward = pieces().inward(landing.wall, *landing.curve, landing.at.u, after, normal, counts_);
+  Sign inward = pieces.inward(landing.wall, *landing.curve, landing.at.u, after, normal, counts_);
   if (inward == Sign::negative && reflections == 1) {
     // A grazing rounding: reflecting once more turns it back.
     after = geometry::reflected(after, normal, dot(normal, normal), 1.0, 0.0);
-    inward = pieces().inward(landing.wall, *landing.curve, landing.at.u, after, normal, counts_);
+    inward = pieces.inward(landing.wall, *landing.curve, landing.at.u, after, normal, counts_);
   }
   if (inward != Sign::positive) return bodies_.end(index, Fate::singular, now, observer), true;
 
-  b.state.wall = landing.wall;
+  b.state.wall = first + landing.wall;
   b.state.u = landing.at.u;
   b.state.position = landing.at.point;
   b.state.velocity = after;
@@ -203,8 +209,8 @@ class FreeFlights {
   b.state.cell.second += landing.cell.second;
   b.state.time.high = now.high;
   b.state.time.low = now.low;
-  pieces().begin_on_wall(b.flight, landing.wall, *landing.curve, landing.at.u, landing.at.point,
-                         after);
+  pieces.begin_on_wall(b.flight, landing.wall, *landing.curve, landing.at.u, landing.at.point,
+                       after);
   const HitEvent& hit = bodies_.count_hit(index, b, b.state, before, b.ahead.duration, reflections);
   if (bodies_.reaches_limit(b)) {
     observer.hit(hit);
@@ -214,9 +220,27 @@ class FreeFlights {
     observer.hit(hit);
     return false;  // an edge meets the wall there, and the flight would be beyond it
   }
-  predict(index, b);  // first, while its numbers are at hand
+  // First, while its numbers are at hand.
+  if (first == 0)
+    predict(index, b);
+  else
+    predict_in_region(index);
   observer.hit(hit);
   return true;
+}
+
+[[gnu::always_inline]] inline bool FreeFlights::meet(int index, Body& b, Time now,
+                                                     Observer& observer, const PieceTable& pieces,
+                                                     int first, PieceTable::Landing& landing) {
+  if (b.ahead.kind == Ahead::Kind::joint) {
+    for (const int h : pieces.table.walls[static_cast<std::size_t>(landing.wall)].holes)
+      if (pieces.table.holes[static_cast<std::size_t>(h)].from == 0.0) landing.hole = h;
+  }
+  if (landing.hole >= 0 && (!scattering_.any || lets_pass(index, b, landing.hole))) {
+    b.hole = landing.hole;
+    return bodies_.end(index, Fate::escaped, now, observer), true;
+  }
+  return reflect(index, b, now, observer, pieces, first, landing);
 }
 
 [[gnu::always_inline]] inline bool FreeFlights::apply(int index, Time now, Observer& observer) {
@@ -249,15 +273,7 @@ class FreeFlights {
     put_on_edge(b, now, there);
     return false;
   }
-  if (b.ahead.kind == Ahead::Kind::joint) {
-    for (const int h : pieces().table.walls[static_cast<std::size_t>(landing.wall)].holes)
-      if (pieces().table.holes[static_cast<std::size_t>(h)].from == 0.0) landing.hole = h;
-  }
-  if (landing.hole >= 0 && (!scattering_.any || lets_pass(index, b, landing.hole))) {
-    b.hole = landing.hole;
-    return bodies_.end(index, Fate::escaped, now, observer), true;
-  }
-  return reflect(index, b, now, observer, landing);
+  return meet(index, b, now, observer, pieces(), 0, landing);
 }
 
 }  // namespace carom::events

@@ -30,8 +30,11 @@ class Media {
   int first_wall(int region) const {
     return region < 0 ? 0 : table_.regions[static_cast<std::size_t>(region)].first;
   }
-  /// The other side of a wall of the table, or -1.
-  int twin(int wall) const { return table_.walls[static_cast<std::size_t>(wall)].twin; }
+  /// The other side of a wall of the table that particles pass, or -1.
+  int twin(int wall) const {
+    const Wall& one = table_.walls[static_cast<std::size_t>(wall)];
+    return one.closed ? -1 : one.twin;
+  }
 
  private:
   struct Seen {

@@ -120,30 +120,16 @@ bool FreeFlights::crosses(int index, Body& b, const PieceTable::Landing& landing
 void FreeFlights::pass(int index, Time now, Observer& observer) {
   Body& b = bodies_[index];
   const PieceTable& pieces = pieces_of(b.region);
-  if (b.ahead.kind != Ahead::Kind::wall)
-    return bodies_.end(index, Fate::singular, now, observer, "a corner of a region");
+  const int first = first_wall(b);
   PieceTable::Landing landing;
   pieces.land(b.flight, b.ahead, landing, counts_);
+  const bool edge = media_->twin(first + landing.wall) >= 0;
+  if (edge && b.ahead.kind == Ahead::Kind::joint)
+    return bodies_.end(index, Fate::singular, now, observer, "a corner of a region");
   const Vector before = landing.velocity;
-  if (!crosses(index, b, landing)) {
-    const Vector normal = landing.at.normal;
-    Vector after = geometry::reflected(before, normal, landing.at.factor,
-                                       geometry::step_to_energy_shell(before, b.shell));
-    const auto inward = [&] {
-      return pieces.inward(landing.wall, *landing.curve, landing.at.u, after, normal, counts_);
-    };
-    Sign sign = inward();
-    if (sign == Sign::negative) {
-      after = geometry::reflected(after, normal, dot(normal, normal), 1.0, 0.0);
-      sign = inward();
-    }
-    if (sign != Sign::positive) return bodies_.end(index, Fate::singular, now, observer);
-    b.state.wall = first_wall(b) + landing.wall;
-    b.state.u = landing.at.u;
-    b.state.position = landing.at.point;
-    b.state.velocity = after;
-    pieces.begin_on_wall(b.flight, landing.wall, *landing.curve, landing.at.u, landing.at.point,
-                         after);
+  if (!edge || !crosses(index, b, landing)) {
+    meet(index, b, now, observer, pieces, first, landing);
+    return;
   }
   b.state.cell.first += landing.cell.first;
   b.state.cell.second += landing.cell.second;

@@ -83,7 +83,7 @@ const std::vector<KeyDescription>& key_table() {
       {"table", "", "hole", "list of tables", "", "openings of walls: [[table.hole]]"},
       {"table", "", "wall", "list of tables", "", "how walls reflect: [[table.wall]]"},
       {"table", "", "region", "list of tables", "",
-       "obstacles that particles pass: [[table.region]]"},
+       "parts of the table, or obstacles, with another field: [[table.region]]"},
 
       {"table.obstacle", "", "shape", "string", "",
        "circle, ellipse, polygon, path, polar, parametric or spline"},
@@ -131,7 +131,12 @@ const std::vector<KeyDescription>& key_table() {
        "temperature as an energy: the mean kinetic energy of a particle of the gas"},
       {"table.wall", "", "wall", "string", "", "name of the wall; all walls if not given"},
 
-      {"table.region", "", "wall", "string", "", "a wall of the obstacle that particles pass"},
+      {"table.region", "obstacle", "wall", "string", "",
+       "a wall of the obstacle that particles enter"},
+      {"table.region", "pieces", "start", "point", "",
+       "a corner of the table, where the region's edge begins"},
+      {"table.region", "pieces", "pieces", "list of tables", "",
+       "as in [[table.loop]], to another corner of the same loop; the region is on their left"},
       {"table.region", "", "B", "number", "", "magnetic field inside; that outside if not given"},
       {"table.region", "", "potential", "number", "0",
        "potential energy inside; it is 0 outside, where particles have their given speed"},

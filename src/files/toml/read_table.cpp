@@ -65,26 +65,6 @@ WallLawSpec read_law(Value& value) {
   return spec;
 }
 
-RegionSpec read_region(Value& value) {
-  TomlSection section(value, "table.region");
-  section.check_keys();
-  RegionSpec spec;
-  spec.place = value.place;
-  const Value& wall = section.get("wall");
-  spec.wall = as_text(wall);
-  spec.wall_place = wall.place;
-  spec.index = as_number(section.get("index"));
-  spec.potential = as_number(section.get("potential"));
-  if (const Value* field = section.find("B")) spec.field = as_number(*field);
-  const Value& reflection = section.get("reflection");
-  spec.reflection = as_text(reflection);
-  static const std::vector<std::string> words{"none", "s", "p"};
-  if (std::find(words.begin(), words.end(), spec.reflection) == words.end())
-    throw InputError(reflection.place, "unknown reflection '" + spec.reflection + "'",
-                     "one of " + listed(words), nearest_name(spec.reflection, words));
-  return spec;
-}
-
 PieceSpec read_piece(Value& value) {
   const bool line = value.find("line_to") != nullptr;
   const bool arc = value.find("arc_to") != nullptr || value.find("arc_via") != nullptr;
@@ -138,6 +118,32 @@ void read_pieces(TomlSection& section, LoopSpec& loop) {
   Value& pieces = section.get("pieces");
   as_list(pieces);
   for (Value& piece : pieces.items) loop.pieces.push_back(read_piece(piece));
+}
+
+RegionSpec read_region(Value& value) {
+  const bool has_edge = value.find("start") != nullptr || value.find("pieces") != nullptr;
+  TomlSection section(value, "table.region", has_edge ? "pieces" : "obstacle");
+  section.check_keys();
+  RegionSpec spec;
+  spec.place = value.place;
+  if (has_edge) {
+    spec.edge.place = value.place;
+    read_pieces(section, spec.edge);
+  } else {
+    const Value& wall = section.get("wall");
+    spec.wall = as_text(wall);
+    spec.wall_place = wall.place;
+  }
+  spec.index = as_number(section.get("index"));
+  spec.potential = as_number(section.get("potential"));
+  if (const Value* field = section.find("B")) spec.field = as_number(*field);
+  const Value& reflection = section.get("reflection");
+  spec.reflection = as_text(reflection);
+  static const std::vector<std::string> words{"none", "s", "p"};
+  if (std::find(words.begin(), words.end(), spec.reflection) == words.end())
+    throw InputError(reflection.place, "unknown reflection '" + spec.reflection + "'",
+                     "one of " + listed(words), nearest_name(spec.reflection, words));
+  return spec;
 }
 
 LoopSpec read_loop(Value& value) {

@@ -55,6 +55,8 @@ std::vector<RegionFault> check_region(const std::vector<Loop>& loops, RegionKind
 /// Exact point location with respect to one loop: positive inside (or on the left), negative
 /// outside, zero on it. The loop must be closed and simple.
 int locate(const Loop& loop, Vector point);
+/// Exact: is a loop inside another one that it does not cross?
+bool lies_inside(const Loop& loop, const Loop& around);
 /// Exact: is the point one of the curve?
 bool passes_through(const Curve&, Vector point);
 
