@@ -75,6 +75,11 @@ licences() {
   done
 }
 
+# The page, where ./dev page has made it.
+page_into() {
+  [[ ! -e $source/build/page/carom.html ]] || install -D -m 644 "$source/build/page/carom.html" "$1/carom.html"
+}
+
 tarball() {
   local name=carom-$version-$machine-linux folder loader
   folder=$work/$name
@@ -92,6 +97,7 @@ LAUNCHER
   chmod +x "$folder/carom"
   cp "$source/LICENSE" "$source/README.md" "$source/CHANGELOG.md" "$folder"
   cp -r "$source/examples" "$folder/examples"
+  page_into "$folder/share/carom"
   mkdir "$folder/man"
   cp "$build"/man/*.1 "$folder/man"
   [[ ! -d $source/build/docs/html ]] || cp -r "$source/build/docs/html" "$folder/docs"
@@ -124,6 +130,7 @@ wheel() {
   cp "$build"/python/carom/*.py "$build"/python/carom/*.pyi "$build"/python/carom/*.so "$build/python/carom/py.typed" "$folder/carom"
   module=$(echo "$folder"/carom/_carom*.so)
   strip "$module"
+  page_into "$folder/carom"
   collect "$module" "$folder/carom/lib" libc.so.6 libm.so.6 libgcc_s.so.1 libstdc++.so.6 libpthread.so.0 libdl.so.2 libresolv.so.2 librt.so.1
   licences "$folder/carom/lib"
   private "$folder/carom/lib" "$module"
