@@ -45,8 +45,5 @@ Box moved(const Box& box, Vector by);
 inline bool overlap(const Box& a, const Box& b) {
   return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
 }
-inline bool within(const Box& a, const Box& b) {
-  return a.low.x >= b.low.x && a.high.x <= b.high.x && a.low.y >= b.low.y && a.high.y <= b.high.y;
-}
 
 }  // namespace carom::geometry

@@ -318,8 +318,8 @@ class Check {
       for (const auto& [inner, outer] : {std::pair{i, j}, std::pair{j, i}}) {
         const std::size_t a = whose[inner], b = whose[outer];
         if (is_disc({a, 0, 0}) && is_disc({b, 0, 0})) continue;  // told by their distance
-        if (!within(boxes[inner], boxes[outer]) || !lies_inside(loops_[a], exact_loop(b, 0)))
-          continue;
+        // Boxes are larger than what is in them: whether one is in the other does not tell.
+        if (!lies_inside(loops_[a], exact_loop(b, 0))) continue;
         const NamedCurve& c = loops_[a][0];
         faults_.add(Kind::nesting, c.name, loops_[b][0].name, start_point(c.curve),
                     "the obstacle " + loop_text(a) + " lies inside the obstacle " + loop_text(b));
@@ -348,7 +348,7 @@ class Check {
   }
 
   void inside_copy(std::size_t inner, std::size_t outer, Vector by, const DyadicVector& exact_by) {
-    if (!within(loop_boxes_[inner], moved(loop_boxes_[outer], by))) return;
+    if (!overlap(loop_boxes_[inner], moved(loop_boxes_[outer], by))) return;
     if (!lies_inside(loops_[inner], ExactLoop(loops_[outer], exact_by))) return;
     const NamedCurve& c = loops_[inner][0];
     faults_.add(Kind::nesting, c.name, loops_[outer][0].name, start_point(c.curve),
@@ -378,6 +378,12 @@ std::vector<RegionFault> check_region(const std::vector<Loop>& loops, RegionKind
 
 bool lies_inside(const Loop& loop, const Loop& around) {
   return lies_inside(loop, ExactLoop(around, {}));
+}
+
+bool runs_counterclockwise(const Loop& loop) {
+  if (const auto* circle = std::get_if<Circle>(&loop.front().curve))
+    return circle->counterclockwise;
+  return ExactLoop(loop, {}).counterclockwise();
 }
 
 }  // namespace carom::geometry

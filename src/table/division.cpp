@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +40,10 @@ Region region_of(const RegionSpec& spec) {
   return region;
 }
 
+bool overlap(const geometry::Box& a, const geometry::Box& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+}
+
 std::string text_of(const ExactPoint& p) { return "(" + p.x.text() + ", " + p.y.text() + ")"; }
 
 /// Walls keep their numbers while others are added; at the end they are put in order, region by
@@ -46,22 +52,26 @@ class Division {
  public:
   Division(const TableSpec& spec, Table& table)
       : spec_(spec), table_(table), whole_(table), ring_of_(table.walls.size(), -1) {
+    for (const Wall& one : table.walls) names_.insert(one.name);
     for (int w = 0; w < static_cast<int>(table.walls.size()); ++w)
       if (ring_of_[at(w)] < 0) add({-1, walls_from(w, w), {}});
   }
 
   void run(bool nested) {
     bool whole = !nested;
-    for (std::size_t r = 0; r < spec_.regions.size(); ++r) {
-      const RegionSpec& one = spec_.regions[r];
-      table_.regions.push_back(region_of(one));
-      if (!one.wall.empty()) {
-        enter(one, static_cast<int>(r));
-      } else {
-        cut_off(one, static_cast<int>(r));
-        whole = false;
+    // Obstacles first: their loops are still those that were written.
+    for (const bool obstacles : {true, false})
+      for (std::size_t r = 0; r < spec_.regions.size(); ++r) {
+        const RegionSpec& one = spec_.regions[r];
+        if (one.wall.empty() == obstacles) continue;
+        if (obstacles) {
+          enter(one, static_cast<int>(r));
+        } else {
+          cut_off(one, static_cast<int>(r));
+          whole = false;
+        }
       }
-    }
+    for (const RegionSpec& one : spec_.regions) table_.regions.push_back(region_of(one));
     put_in_order();
     if (whole) return;  // obstacles apart from each other are parts that have been checked
     for (int r = -1; r < static_cast<int>(table_.regions.size()); ++r)
@@ -88,10 +98,19 @@ class Division {
     return walls;
   }
 
-  double area_of(const std::vector<int>& walls) const {
-    double area = 0.0;
-    for (const int w : walls) area += geometry::area_integral(table_.walls[at(w)].curve);
-    return area;
+  void add_to(geometry::Loop& loop, const std::vector<int>& walls) const {
+    for (const int w : walls) loop.push_back({table_.walls[at(w)].name, table_.walls[at(w)].curve});
+  }
+  geometry::Loop loop_of(const Ring& ring) const {
+    geometry::Loop loop;
+    add_to(loop, walls_from(ring.walls.front(), ring.walls.front()));
+    return loop;
+  }
+
+  /// A name for a new wall.
+  void take(const std::string& name, const Place& place) {
+    if (!names_.insert(name).second)
+      throw InputError(place, "two walls are called '" + name + "'", "a name of its own for each");
   }
 
   void set(int index, Ring ring) {
@@ -106,21 +125,15 @@ class Division {
     set(static_cast<int>(rings_.size()) - 1, std::move(ring));
   }
 
-  /// What lies within a ring of one region goes to another.
-  void move_contents(int around, int from, int to) {
+  /// What lies within a ring goes to another region, but for the ring `beside`.
+  void move_contents(int around, int beside, int to) {
     const Ring& outer = rings_[at(around)];
-    const auto loop_of = [&](const Ring& ring) {
-      geometry::Loop loop;
-      for (const int w : walls_from(ring.walls.front(), ring.walls.front()))
-        loop.push_back({wall(w).name, wall(w).curve});
-      return loop;
-    };
+    const int from = rings_[at(beside)].region;
     geometry::Loop outline;
     for (int k = 0; k < static_cast<int>(rings_.size()); ++k) {
       Ring& ring = rings_[at(k)];
-      const auto &low = ring.box.low, &high = ring.box.high;
-      if (k == around || ring.region != from || low.x < outer.box.low.x ||
-          low.y < outer.box.low.y || high.x > outer.box.high.x || high.y > outer.box.high.y)
+      // Boxes are larger than what is in them: whether one is in the other does not tell.
+      if (k == around || k == beside || ring.region != from || !overlap(ring.box, outer.box))
         continue;
       if (outline.empty()) outline = loop_of(outer);
       if (geometry::lies_inside(loop_of(ring), outline)) ring.region = to;
@@ -131,13 +144,11 @@ class Division {
   void enter(const RegionSpec& one, int region) {
     const int named = named_wall(one.wall, one.wall_place, table_);
     const std::vector<int> loop = walls_from(named, named);
-    for (const int w : loop)
-      if (wall(w).twin >= 0)
-        throw InputError(one.wall_place,
-                         "wall '" + wall(w).name + "' bounds another region already",
-                         "a region for each obstacle");
-    // Obstacles run clockwise, which the check of the region has decided exactly.
-    if (area_of(loop) > 0.0)
+    if (wall(named).twin >= 0)
+      throw InputError(one.wall_place, "wall '" + one.wall + "' bounds another region already",
+                       "a region for each obstacle");
+    const int around = ring_of_[at(named)];
+    if (geometry::runs_counterclockwise(loop_of(rings_[at(around)])))
       throw InputError(one.wall_place, "wall '" + one.wall + "' is the table's outer wall",
                        "a wall of an obstacle");
     const int first = walls(), count = static_cast<int>(loop.size());
@@ -145,6 +156,7 @@ class Division {
     for (int k = 0; k < count; ++k) {
       Wall inside;
       inside.name = wall(loop[at(k)]).name + ".inside";
+      take(inside.name, one.wall_place);
       inside.curve = geometry::reversed(wall(loop[at(k)]).curve);
       inside.next = first + (k + count - 1) % count;
       inside.previous = first + (k + 1) % count;
@@ -154,8 +166,7 @@ class Division {
       table_.walls.push_back(std::move(inside));
     }
     add(std::move(within));
-    const int around = ring_of_[at(named)];
-    move_contents(around, rings_[at(around)].region, region);
+    move_contents(static_cast<int>(rings_.size()) - 1, around, region);
   }
 
   /// Where a cut begins and ends: the walls that begin there.
@@ -163,9 +174,22 @@ class Division {
     int from = -1, to = -1;
   };
 
-  Cut find_cut(const RegionSpec& one, double area_of_edge) const {
-    const Vector start = point(one.edge.start), end = point(one.edge.pieces.back().to);
+  Cut find_cut(const RegionSpec& one, const std::vector<Wall>& edge) const {
+    const Vector start = geometry::start_point(edge.front().curve),
+                 end = geometry::end_point(edge.back().curve);
+    if (start == end)
+      throw InputError(one.place, "the edge ends where it begins",
+                       "another corner, or an obstacle as a region");
     bool starts = false, ends = false, joined = false;
+    std::string crossing;
+    const auto is_part = [&](const geometry::Loop& loop, bool counterclockwise) {
+      using geometry::RegionKind;
+      const auto faults = geometry::check_region(
+          {loop}, counterclockwise ? RegionKind::bounded : RegionKind::open, std::nullopt, 1);
+      if (!faults.empty() && faults.front().kind == geometry::RegionFault::Kind::crossing)
+        crossing = faults.front().sentence;
+      return faults.empty();
+    };
     for (const Ring& ring : rings_) {
       Cut cut;
       for (const int w : ring.walls) {
@@ -176,11 +200,10 @@ class Division {
       }
       starts = starts || cut.from >= 0;
       ends = ends || cut.to >= 0;
-      if (cut.from < 0 || cut.to < 0 || cut.from == cut.to) continue;
+      if (cut.from < 0 || cut.to < 0) continue;
       joined = true;
-      const double left = area_of_edge + area_of(walls_from(cut.to, cut.from)),
-                   right = area_of(walls_from(cut.from, cut.to)) - area_of_edge;
-      if (left > 0.0 && (right > 0.0) == (left + right > 0.0)) return cut;
+      const bool around = geometry::runs_counterclockwise(loop_of(ring));
+      if (is_part(left_of(edge, cut), true) && is_part(right_of(edge, cut), around)) return cut;
     }
     const char* const corner = "a point at which a wall of the table begins";
     if (!starts)
@@ -193,22 +216,39 @@ class Division {
           "the edge ends at " + text_of(one.edge.pieces.back().to) + ", where no corner is",
           corner);
     if (!joined)
-      throw InputError(one.place, "the edge leads from one closed line of walls to another",
-                       "two corners of the same: the edge divides what they bound");
+      throw InputError(one.place, "the corners at the ends of the edge are of different parts",
+                       "two corners of one closed line of walls, which the edge divides");
+    if (!crossing.empty())
+      throw InputError(one.place, crossing, "an edge that crosses and touches nothing");
     throw InputError(one.place, "no part of the table is on the left of the edge",
                      "an edge within the table, with the region on its left");
   }
 
+  /// The two parts of a closed line of walls that an edge divides.
+  geometry::Loop left_of(const std::vector<Wall>& edge, const Cut& cut) const {
+    geometry::Loop loop;
+    for (const Wall& w : edge) loop.push_back({w.name, w.curve});
+    add_to(loop, walls_from(cut.to, cut.from));
+    return loop;
+  }
+  geometry::Loop right_of(const std::vector<Wall>& edge, const Cut& cut) const {
+    geometry::Loop loop;
+    for (auto w = edge.rbegin(); w != edge.rend(); ++w)
+      loop.push_back({w->name, geometry::reversed(w->curve)});
+    add_to(loop, walls_from(cut.from, cut.to));
+    return loop;
+  }
+
   /// The names of pieces without one: "region_2", or of several "region_2_1", "region_2_2" …
-  Chain edge_of(const RegionSpec& one, int region) const {
+  Chain edge_of(const RegionSpec& one, int region) {
+    if (one.edge.pieces.empty())
+      throw InputError(one.place, "the edge has no pieces", "a list of pieces");
     const std::string own = "region_" + std::to_string(region + 1);
     Chain chain = chain_of_pieces(one.edge, [&](std::size_t k) {
       return one.edge.pieces.size() == 1 ? own : own + "_" + std::to_string(k + 1);
     });
     for (std::size_t k = 0; k < chain.size(); ++k)
-      if (table_.wall_index(chain[k].name) >= 0)
-        throw InputError(one.edge.pieces[k].place, "two walls are called '" + chain[k].name + "'",
-                         "a name of its own for each");
+      for (const char* side : {"", ".inside"}) take(chain[k].name + side, one.edge.pieces[k].place);
     return chain;
   }
 
@@ -217,19 +257,17 @@ class Division {
     const Chain chain = edge_of(one, region);
     const int count = static_cast<int>(chain.size()), first = walls();
     const FlightSizes sizes = flight_sizes(whole_);
-    double area = 0.0;
     std::vector<Wall> edge;
     for (const NamedCurve& piece : chain) {
       edge.emplace_back();
       edge.back().name = piece.name;
       edge.back().curve = rounded(piece.curve);
-      area += geometry::area_integral(edge.back().curve);
       const Place& place = one.edge.pieces[edge.size() - 1].place;
       place_of_edge_[piece.name] = place;
       if (const Misplaced found = misplaced(edge.back(), sizes); !found.fault.empty())
         throw InputError(place, found.fault, found.expected);
     }
-    const Cut cut = find_cut(one, area);
+    const Cut cut = find_cut(one, edge);
     const int last_left = wall(cut.from).previous, last_right = wall(cut.to).previous;
     const std::vector<int> left = walls_from(cut.to, cut.from);
     Ring outer{-1, walls_from(cut.from, cut.to), {}}, inner{region, {}, {}};
@@ -257,12 +295,12 @@ class Division {
     wall(cut.from).previous = first + count;
     wall(cut.to).corner = wall(cut.from).corner = 0;
     inner.walls.insert(inner.walls.end(), left.begin(), left.end());
-    const int divided = ring_of_[at(cut.from)], from = rings_[at(divided)].region;
-    outer.region = from;
+    const int divided = ring_of_[at(cut.from)];
+    outer.region = rings_[at(divided)].region;
     ring_of_.resize(table_.walls.size(), -1);
     set(divided, std::move(outer));
     add(std::move(inner));
-    move_contents(static_cast<int>(rings_.size()) - 1, from, region);
+    move_contents(static_cast<int>(rings_.size()) - 1, divided, region);
   }
 
   void put_in_order() {
@@ -271,6 +309,7 @@ class Division {
       const int first = static_cast<int>(order.size());
       for (const Ring& ring : rings_)
         if (ring.region == r) order.insert(order.end(), ring.walls.begin(), ring.walls.end());
+      std::sort(order.begin() + first, order.end());
       if (r < 0) continue;
       table_.regions[at(r)].first = first;
       table_.regions[at(r)].count = static_cast<int>(order.size()) - first;
@@ -297,6 +336,7 @@ class Division {
   const TableSpec& spec_;
   Table& table_;
   const Table whole_;  ///< as it was, with its walls where they were written
+  std::set<std::string> names_;
   std::map<std::string, Place> place_of_edge_;
   std::vector<int> ring_of_;
   std::vector<Ring> rings_;

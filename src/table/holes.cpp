@@ -139,8 +139,10 @@ void add_laws(const TableSpec& spec, Table& table) {
       throw InputError(law.place, "walls that change speeds beside regions that change them",
                        "another law, or no [[table.region]]");
     const int named = law.wall.empty() ? -1 : named_wall(law.wall, law.wall_place, table);
-    // The edge of a region that is given a law is a wall, from either side.
-    const int other = named < 0 || table.wall(named).closed ? -1 : table.wall(named).twin;
+    // The edge of a region that is given a law is a wall, from either side; its inner side may then
+    // get another one.
+    const bool one = named >= 0 && table.wall(named).closed && is_inner_side(table, named);
+    const int other = named < 0 || one ? -1 : table.wall(named).twin;
     for (int k = 0; k < static_cast<int>(table.walls.size()); ++k) {
       Wall& wall = table.walls[static_cast<std::size_t>(k)];
       if (named < 0 ? is_passed(wall) : k != named && k != other) continue;

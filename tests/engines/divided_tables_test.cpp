@@ -244,6 +244,64 @@ TEST(DividedTables, HoldRegionsWithinRegions) {
   EXPECT_NEAR(seen.rows[2].flight_time, 0.75, 1e-15);
 }
 
+/// The wave that is mirrored is the same from either side, also where both are regions.
+TEST(DividedTables, MirrorTheSameShareFromBothSides) {
+  const std::string parts =
+      right_of(1, "index = 1.5\n") + right_of(3, "index = 3\nreflection = \"s\"\n");
+  for (const char* start : {"[2, 1]\nvelocity = [1, 0]\n", "[3.5, 1]\nvelocity = [-1, 0]\n"}) {
+    const System system = system_of(layers + parts + "[initial]\nposition = " + start +
+                                    "[run]\nt_max = 1.6\ntrajectories = 4000\n");
+    double mirrored = 0.0;
+    const Hits seen = hits_of(system);
+    for (const HitEvent& hit : seen.rows) mirrored += hit.before.x * hit.after.x < 0.0;
+    EXPECT_EQ(seen.rows.size(), 4000u);
+    EXPECT_NEAR(mirrored / 4000.0, 1.0 / 9.0, 4.0 * std::sqrt(8.0 / 81.0 / 4000.0)) << start;
+  }
+}
+
+/// What is in an obstacle is found there, even where the boxes around it reach beyond.
+TEST(DividedTables, KnowWhatLiesInAnObstacle) {
+  const std::string box =
+      "[table]\nshape = \"rectangle\"\nwidth = 4\nheight = 2\n[[table.obstacle]]\nshape = "
+      "\"polygon\"\nname = \"p\"\npoints = [[1, 0.5], [3, 0.5], [3, 1.5], [1, 1.5]]\n";
+  const std::string leaf =
+      "[[table.obstacle]]\nshape = \"path\"\nname = \"leaf\"\nstart = [1.5, 1]\npieces = [{ bezier "
+      "= [[1.5, 1.6], [2.5, 1.6], [2.5, 1]] }, { bezier = [[2.5, 0.4], [1.5, 0.4], [1.5, 1]] }]\n";
+  EXPECT_THROW(system_of(box + leaf), InputError);
+  const System system = system_of(box + leaf + "[[table.region]]\nwall = \"p_side_1\"\n");
+  const Hits seen = flown(system, at({0.5, 1.1}, {1, 0}), 2);
+  EXPECT_TRUE(system.table->wall(seen.rows[1].wall).name.starts_with("leaf"));
+  EXPECT_EQ(region_of(*system.table, seen.rows[1].wall), 0);
+}
+
+/// Signs of areas are exact: a table far from the origin has a left and a right.
+TEST(DividedTables, AreDividedFarFromTheOrigin) {
+  const std::string far =
+      "[table]\nshape = \"polygon\"\npoints = [[100000000, 100000000], [100000002, 100000000], "
+      "[100000002, 100000001], [100000001, 100000001], [100000001, 100000002], [100000000, "
+      "100000001]]\n";
+  const System system = system_of(
+      far + cut("[100000001, 100000001]", "{ line_to = [100000000, 100000000] }", "B = 1\n"));
+  EXPECT_EQ(seen_from(*system.table, 0).walls.size(), 4u);
+  EXPECT_THROW(system_of(far + "[[table.region]]\nwall = \"side_1\"\n"), InputError);
+}
+
+/// A law for a piece of an edge counts on both sides, one for its inner side there.
+TEST(DividedTables, TakeTheLastLawOfEachSide) {
+  const auto law = [](const std::string& wall, const std::string& how) {
+    return "[[table.wall]]\nwall = \"" + wall + "\"\nlaw = \"" + how + "\"\n";
+  };
+  const auto shares = [&](const std::string& laws) {
+    const System system = system_of(layers + right_of(2, "") + laws);
+    const Table& table = *system.table;
+    return std::pair{table.wall(table.wall_index("at_2")).specularity,
+                     table.wall(table.wall_index("at_2.inside")).specularity};
+  };
+  EXPECT_EQ(shares(law("at_2", "specular") + law("at_2", "diffuse")), std::pair(0.0, 0.0));
+  EXPECT_EQ(shares(law("at_2", "specular") + law("at_2.inside", "diffuse")), std::pair(1.0, 0.0));
+  EXPECT_EQ(shares(law("at_2.inside", "diffuse") + law("at_2", "specular")), std::pair(1.0, 1.0));
+}
+
 TEST(DividedTables, HaveHolesAndLawsInTheirParts) {
   const std::string hole = "[[table.hole]]\nwall = \"side_5\"\ncenter = 1\nwidth = 0.5\n";
   const System system = system_of(layers + right_of(2, "potential = 0.1\n") + hole);
@@ -336,11 +394,30 @@ TEST(DividedTables, AreRefusedByNameAndPlace) {
       {layers + cut("[2, 2]", "{ line_to = [2, 2] }", ""), "ends where it begins"},
       {layers + cut("[2, 2]", "", ""), "no pieces"},
       {layers + cut("[2, 2]", "{ line_to = [4.1, 1] }, { line_to = [2, 0] }", ""), "cross"},
-      {layers + cut("[1, 2]", "{ line_to = [3, 2] }", ""), "on the left"},
+      {layers + cut("[1, 2]", "{ line_to = [3, 2] }", ""), "run along"},
       {layers + cut("[1, 2]", "{ line_to = [1, 3] }, { line_to = [3, 2] }", ""), "on the left"},
-      {layers + disc + right_of(2, ""), "'at_2'"},
-      {layers + right_of(2, "") + cut("[1, 2]", "{ line_to = [3, 0] }", ""), "one closed line"},
+      {layers + disc + right_of(2, ""), "'at_2.inside'"},
+      {layers + right_of(2, "") + cut("[1, 2]", "{ line_to = [3, 0] }", ""), "different parts"},
       {layers + right_of(2, "") + right_of(2, ""), "called 'at_2'"},
+      {layers + cut("[2, 2]",
+                    "{ line_to = [2, 1], name = \"a\" }, { line_to = [2, 0], name = \"a\" }", ""),
+       "called 'a'"},
+      {layers + cut("[2, 2]",
+                    "{ line_to = [2, 1], name = \"a\" }, { line_to = [2, 0], name = \"a.inside\" }",
+                    ""),
+       "called 'a.inside'"},
+      {layers + disc +
+           "name = \"d\"\n[[table.region]]\nwall = \"d\"\n[[table.region]]\nwall = \"d\"\n",
+       "another region"},
+      {layers + right_of(2, "") + "[[table.region]]\nwall = \"side_1\"\n", "outer wall"},
+      {layers + cut("[2, 2]", "{ line_to = [3, 1] }, { line_to = [2, 2] }", ""),
+       "ends where it begins"},
+      {layers + cut("[1, 2]", "{ line_to = [3, 0] }", "") +
+           cut("[3, 2]", "{ line_to = [1, 0] }", ""),
+       "different parts"},
+      {layers + cut("[1, 2]", "{ line_to = [3, 0] }", "") +
+           cut("[1, 0]", "{ line_to = [3, 1.5] }, { line_to = [0, 2] }", ""),
+       "cross"},
       {layers + cut("[2, 2]", "{ line_to = [2, 0] }", "wall = \"side_1\"\n"), "unknown key"},
       {layers + right_of(2, "") + "[[table.hole]]\nwall = \"at_2\"\ncenter = 1\nwidth = 0.5\n",
        "particles pass"},

@@ -115,10 +115,15 @@ std::string table_text(const System& system, const TableMeasure& measured,
   for (const Wall& wall : table.walls)
     if (wall.temperature > 0.0)
       text += fmt::format("  wall '{}' has the temperature {:.6g}\n", wall.name, wall.temperature);
+  for (int w = 0; w < static_cast<int>(table.walls.size()); ++w)
+    if (table.wall(w).closed && !is_inner_side(table, w))
+      text += fmt::format("  the edge '{}' is a wall, from both sides\n", table.wall(w).name);
   for (const Region& region : table.regions) {
-    int inner = region.first;
-    while (!is_inner_side(table, inner)) ++inner;
-    text += fmt::format("  region behind '{}': ", table.wall(table.wall(inner).twin).name);
+    int w = region.first;
+    while (w < region.first + region.count && !is_inner_side(table, w)) ++w;
+    text += w < region.first + region.count
+                ? fmt::format("  region behind '{}': ", table.wall(table.wall(w).twin).name)
+                : fmt::format("  region of '{}': ", table.wall(region.first).name);
     if (region.potential != 0.0)
       text += fmt::format("potential {:.6g}", region.potential);
     else

@@ -86,7 +86,7 @@ bool FreeFlights::crosses(int index, Body& b, const PieceTable::Landing& landing
     const double square = (there - tangential) * (there + tangential);
     if (!(square > 0.0)) return false;  // total reflection
     const double beyond_normal = std::sqrt(square);
-    const Region& region = table.regions[at(b.region < 0 ? beyond : b.region)];
+    const Region& region = table.regions[at(is_inner_side(table, to) ? beyond : b.region)];
     if (region.reflection != Region::Reflection::none) {
       double first = normal, second = beyond_normal;
       if (region.reflection == Region::Reflection::p) {

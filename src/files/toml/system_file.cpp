@@ -104,7 +104,7 @@ void check_regions(const Value& root, const System& system, const Table& table) 
                        "the potential " + files::shown(table.regions[r].potential) +
                            " is not below the kinetic energy " +
                            files::shown(0.5 * p.mass * p.speed * p.speed),
-                       "a lower potential, or an obstacle without a region");
+                       "a lower potential");
     }
   }
 }

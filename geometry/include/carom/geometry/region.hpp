@@ -57,6 +57,8 @@ std::vector<RegionFault> check_region(const std::vector<Loop>& loops, RegionKind
 int locate(const Loop& loop, Vector point);
 /// Exact: is a loop inside another one that it does not cross?
 bool lies_inside(const Loop& loop, const Loop& around);
+/// Exact, of a loop that is closed and simple.
+bool runs_counterclockwise(const Loop& loop);
 /// Exact: is the point one of the curve?
 bool passes_through(const Curve&, Vector point);
 
