@@ -35,12 +35,6 @@ class Descriptor {
 
 }  // namespace
 
-InputError too_long(const Place& place, std::size_t most, const std::string& subject,
-                    const std::string& expected) {
-  return InputError(place, subject + "is longer than " + std::to_string(most >> 20) + " MB",
-                    expected);
-}
-
 std::string text_of_file(const std::string& name, std::size_t most, const Place& place,
                          const std::string& subject, const std::string& expected) {
   const auto refuse = [&](const std::string& why) {

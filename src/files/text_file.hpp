@@ -14,8 +14,11 @@ inline constexpr std::size_t most_of_system_file = std::size_t{128} << 20;
 inline constexpr std::size_t most_of_number_file = std::size_t{256} << 20;
 
 /// That a text has more than `most` bytes. `subject` begins the message: "" or "'NAME' ".
-InputError too_long(const Place& place, std::size_t most, const std::string& subject = "",
-                    const std::string& expected = "");
+inline InputError too_long(const Place& place, std::size_t most, const std::string& subject = "",
+                           const std::string& expected = "") {
+  return InputError(place, subject + "is longer than " + std::to_string(most >> 20) + " MB",
+                    expected);
+}
 
 /// The text of a file or a pipe. Throws InputError with `place` and `expected` where it cannot be
 /// read, is a folder, or is longer than `most` bytes. A pipe that nothing writes to is empty after

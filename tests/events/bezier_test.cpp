@@ -10,6 +10,7 @@
 #include "carom/table/make.hpp"
 #include "events/flight/next_hit.hpp"
 #include "events/recorder.hpp"
+#include "random_tables.hpp"
 
 namespace carom::tests {
 
@@ -155,7 +156,8 @@ TEST(Beziers, StagesGiveTheSameBits) {
         without_grid(table, {1.0, 1 << 30});
     std::mt19937_64 random(6);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
-    for (int i = 0; i < 40; ++i) {
+    const int flights = static_cast<int>(cases(12, 400));
+    for (int i = 0; i < flights; ++i) {
       Flight f;
       const int wall = static_cast<int>(unit(random) * static_cast<double>(table.walls.size()));
       const geometry::Curve& curve = table.wall(wall).curve;
