@@ -17,6 +17,7 @@ import sys
 
 import check_links
 import cpp_reference
+import live
 import notebooks
 from rst import title
 
@@ -74,8 +75,8 @@ class Stage:
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text, encoding="utf-8")
 
-    def page(self, path, ending=""):
-        """Copies a page; its links lead to where the files went."""
+    def page(self, path, ending="", figure=""):
+        """Copies a page; its links lead to where the files went. A figure goes before its last section."""
         here = self.place(path).parent
 
         def moved(link):
@@ -93,6 +94,9 @@ class Stage:
 
         lines = [LINK.sub(moved, line) if is_prose else line
                  for line, is_prose in prose(path.read_text(encoding="utf-8"))]
+        if figure:
+            last = max(k for k, line in enumerate(lines) if line.startswith("## "))
+            lines.insert(last, figure)
         self.write(self.place(path), "\n".join(lines) + ending)
 
 
@@ -187,6 +191,7 @@ def main():
     given = parser.parse_args()
     root, build, module = (path.resolve() for path in (given.source, given.build, given.module))
     stage = Stage(root, build / "source")
+    web = root / "build/page/carom.html"
     shutil.rmtree(stage.folder, ignore_errors=True)
 
     pages = contents(root / "docs/README.md")
@@ -195,17 +200,19 @@ def main():
     pages.append(("Library", ["reference/cpp.md", "reference/python.md"]))
     trees = toctree("Start", ["contents.md"]) + "".join(toctree(*part) for part in pages)
     for page in [root / "README.md", *sorted((root / "docs").rglob("*.md"))]:
-        ending = trees if page == root / "README.md" else ""
+        ending, figure = trees if page == root / "README.md" else "", ""
         if page == root / "docs/guide/commands.md":
             ending = toctree("", below(root))
         if page.parent.name == "tutorials":
             (stage.folder / "guide/tutorials").mkdir(parents=True, exist_ok=True)
             made = notebooks.write(page, stage.folder / "guide/tutorials")
+            figure = live.figure(page.stem, web)
             ending = f"\nThis page [as a Jupyter notebook]({made.name}).\n"
-        stage.page(page, ending)
+        stage.page(page, ending, figure)
     pictures(root, build, module, stage)
     mathjax(stage.folder / "static")
-    shutil.copyfile(root / "docs/site/carom.css", stage.folder / "static/carom.css")
+    for name in ("carom.css", "live.js"):
+        shutil.copyfile(root / "docs/site" / name, stage.folder / "static" / name)
 
     version = re.search(r"project\(carom\s+VERSION\s+([\d.]+)",
                         (root / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
@@ -223,6 +230,7 @@ def main():
     if done.returncode != 0:
         raise SystemExit("the site has warnings, which count as errors")
     mend_theme(html)
+    live.copy(web, html)
     check_links.main(html)
 
 

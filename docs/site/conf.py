@@ -33,6 +33,7 @@ html_copy_source = False
 html_show_search_summary = False
 html_show_sourcelink = False
 html_css_files = ["carom.css"]
+html_js_files = [("live.js", {"defer": "defer"})]
 html_theme_options = {
     "light_css_variables": {"font-stack": "system-ui, 'DejaVu Sans', sans-serif"},
 }

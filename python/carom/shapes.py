@@ -116,13 +116,13 @@ def flower(radius=1, epsilon=0.2, petals=5) -> System:
 
 @of_keywords
 def superellipse(a=1, b=1, exponent=4) -> System:
-    """The curve |x/a|ⁿ + |y/b|ⁿ = 1 (lengths), n even."""
+    """The curve (x/a)ⁿ + (y/b)ⁿ = 1 (lengths), n even."""
     return _shape("superellipse", a=a, b=b, exponent=exponent)
 
 
 @of_keywords
 def robnik(radius=1, lambda_=0.3) -> System:
-    """Robnik's billiard: the unit circle mapped by z + lambda_·z², times the radius (length)."""
+    """Robnik's billiard: the unit circle mapped by z + λ z², times the radius (length)."""
     return _shape("robnik", radius=radius, **{"lambda": lambda_})
 
 

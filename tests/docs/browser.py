@@ -51,6 +51,11 @@ class Site(unittest.TestCase):
         self.assertGreater(html.count("mjx-chtml"), 5)
         self.assertNotIn("mjx-merror\"", html)
 
+    def test_tutorials_have_figures_that_compute(self):
+        if (site / "carom.html").exists():
+            html = opened((site / "guide/tutorials/orbit.html").as_uri(), "guide-tutorials-orbit")
+            self.assertIn('src="../../carom.html#system=mushroom', html)
+
     def test_the_search_finds_a_page(self):
         html = opened((site / "search.html").as_uri() + "?q=mushroom", "search")
         self.assertIn("finished, found", text_of(html))

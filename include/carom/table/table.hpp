@@ -60,13 +60,13 @@ struct Region {
   enum class Reflection : unsigned char { none, s, p } reflection = Reflection::none;
 };
 
-/// A billiard table: its walls, the holes on them, and the plane or lattice around.
 /// By how much walls differ from the curves that were written as formulas, at most and without
 /// rounding: in place, in the angle of their normals and, except beside cusps, in curvature.
 struct CurveErrors {
   double distance = 0.0, normal = 0.0, curvature = 0.0;
 };
 
+/// A billiard table: its walls, the holes on them, and the plane or lattice around.
 struct Table {
   std::string shape;
   std::vector<Wall> walls;
