@@ -53,9 +53,10 @@ export function svg(trace: Trace, system: System): Blob {
       push(dots, slot % colours.orbits.length, `M${sx} ${sy}h.01`);
     }
   }
-  const walls = system.walls.filter((wall) => !wall.hole).map((wall) => {
+  const walls = system.walls.filter((wall) => !wall.hole && wall.points.length > 0).map((wall) => {
     const points = Array.from({ length: wall.points.length / 2 }, (_, i) => `${px(wall.points[2 * i])} ${py(wall.points[2 * i + 1])}`);
-    return `<path d="M${points.join("L")}${wall.closed ? "Z" : ""}"/>`;
+    const dashes = wall.passed ? ' stroke-width=".8" stroke-dasharray="6 3"' : "";
+    return `<path${dashes} d="M${points.join("L")}${wall.closed ? "Z" : ""}"/>`;
   });
   const paths = (map: Map<number, string[]>, extra: string) =>
     [...map].map(([c, d]) => `<path stroke="${colours.orbits[c]}" ${extra} d="${d.join("")}"/>`).join("\n");

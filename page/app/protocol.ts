@@ -10,9 +10,12 @@ export const TRUSTED = 8;
 
 export interface Wall {
   name: string;
+  /** None where the other side of an edge has them. */
   points: number[];
   closed: boolean;
   hole: boolean;
+  /** Particles go through: the edge of a region, or a hole. */
+  passed: boolean;
   length: number;
   offset: number;
 }

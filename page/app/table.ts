@@ -218,11 +218,13 @@ export class Table {
     // The file's cell last, over its copies.
     for (const centre of [false, true]) {
       const walls = new Path2D();
+      const edges = new Path2D();
       const holes = new Path2D();
       for (const [dx, dy, own] of this.cells()) {
         if (own !== centre) continue;
         for (const wall of system.walls) {
-          const path = wall.hole ? holes : walls;
+          if (wall.points.length === 0) continue;
+          const path = wall.hole ? holes : wall.passed ? edges : walls;
           path.moveTo(view.px(wall.points[0] + dx), view.py(wall.points[1] + dy));
           for (let i = 2; i < wall.points.length; i += 2) {
             path.lineTo(view.px(wall.points[i] + dx), view.py(wall.points[i + 1] + dy));
@@ -233,6 +235,10 @@ export class Table {
       g.strokeStyle = centre ? colours.ink : colours.soft;
       g.lineWidth = centre ? 1.5 : 0.8;
       g.stroke(walls);
+      g.lineWidth /= 2;
+      g.setLineDash([6, 3]);
+      g.stroke(edges);
+      g.setLineDash([]);
       g.strokeStyle = colours.paper;
       g.lineWidth = 4;
       g.stroke(holes);

@@ -137,7 +137,7 @@ class Flight final : public Observer {
   // Of the flight that led to a hit, positive to the left; where forces act it has none.
   double curvature_before(const HitEvent& event) const {
     if (system().dynamics.forces && !system().dynamics.forces->empty()) return 0.0;
-    const Particle& outside = world_.particle(event.particle);
+    const Particle& outside = system().particles[static_cast<std::size_t>(event.particle)];
     int region = -1;
     if (!table().regions.empty()) {
       // The wall as it is seen from where the particle flies on. Did it come from behind?

@@ -37,11 +37,14 @@ Json walls(const OpenSystem& open) {
   Json list = Json::array();
   for (std::size_t w = 0; w < table.walls.size(); ++w) {
     const Wall& wall = table.walls[w];
+    const bool drawn = !is_inner_side(table, static_cast<int>(w));  // else its other side is
+    const double end = geometry::end_parameter(wall.curve);
     list.push(Json::object()
                   .set("name", wall.name)
-                  .set("points", points(open.frames[w], 0.0, geometry::end_parameter(wall.curve)))
+                  .set("points", drawn ? points(open.frames[w], 0.0, end) : Json::array())
                   .set("closed", geometry::is_closed(wall.curve))
                   .set("hole", false)
+                  .set("passed", is_passed(wall))
                   .set("length", open.offsets[w + 1] - open.offsets[w])
                   .set("offset", open.offsets[w]));
   }
@@ -56,6 +59,7 @@ Json walls(const OpenSystem& open) {
                   .set("points", points(open.frames[w], hole.from, to))
                   .set("closed", false)
                   .set("hole", true)
+                  .set("passed", true)
                   .set("length", s_to - s)
                   .set("offset", open.offsets[w] + s));
   }

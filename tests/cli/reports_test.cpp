@@ -299,7 +299,7 @@ TEST(Reports, SayWhyQuasiRandomStartsGiveNoError) {
 TEST(Reports, HowToGoOnComesLast) {
   const Shell shell;
   const Outcome o = shell(
-      "$carom escape mushroom --trajectories 1e8 --t-max 4000 --quiet -o a.h5 --checkpoint 0.2 "
+      "$carom escape mushroom --trajectories 1e8 --t-max 200 --quiet -o a.h5 --checkpoint 0.2 "
       ">both 2>&1 & pid=$!; until_saved a.h5; kill -INT $pid; wait $pid");
   EXPECT_EQ(o.status, 130);
   const auto lines = lines_of(shell.read("both"));
