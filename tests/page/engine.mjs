@@ -135,8 +135,19 @@ for (const name of ["stadium", "magnetic-square", "lorentz-triangular", "henon-h
   expect(call({ do: "decisions", orbit: one }).error, `${name}: an orbit that was forgotten`);
 }
 
-// The arc of each flight leads from hit to hit.
-for (const name of ["magnetic-square", "ellipse-magnetic", "stadium"]) {
+// The arc of each flight leads from hit to hit, also where it enters or leaves a field.
+loaded.set("half in a field", call({ do: "load", toml: `
+[table]
+shape = "polygon"
+points = [[0, 0], [2, 0], [4, 0], [4, 2], [2, 2], [0, 2]]
+[[table.region]]
+start = [2, 2]
+pieces = [{ line_to = [2, 0] }]
+B = 3
+[initial]
+kind = "uniform"
+` }));
+for (const name of ["magnetic-square", "ellipse-magnetic", "stadium", "half in a field"]) {
   const { orbit } = call({ do: "orbit", system: loaded.get(name).system, start: { seed: 1, trajectory: 2 } });
   const rows = step(orbit, 30);
   for (let i = 1; i < rows.length; ++i) {
