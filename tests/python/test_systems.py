@@ -146,8 +146,21 @@ def test_regions_and_laws_of_walls():
     assert numpy.hypot(path["x"] - 2.1, path["y"] - 1.4 + 0.125).round(9).tolist()[:2] == [0.125, 0.125]
     rough = box.wall("mixed", wall="left", specularity=0.5).wall("diffuse", wall="disc")
     assert "specularity = 0.5" in rough.to_toml()
+    closed = carom.run(glass.wall("specular", wall="disc"), position=(0.5, 1.4), velocity=(1, 0), collisions=1)
+    assert closed.hits["vx"][0] < -0.999
+    with pytest.raises(carom.InputError, match="particles pass wall 'disc'"):
+        glass.hole("disc", center=1, width=0.5)
     with pytest.raises(carom.InputError, match="particles enter regions"):
-        glass.wall("diffuse", wall="disc")
+        carom.lyapunov(glass)
+
+
+def test_a_table_is_divided_by_an_edge_from_wall_to_wall():
+    whole = carom.polygon([(0, 0), (2, 0), (4, 0), (4, 2), (2, 2), (0, 2)])
+    halves = whole.region(start=(2, 2), pieces=[{"line_to": (2, 0), "name": "step"}], potential=0.3)
+    assert {"step", "step.inside"} <= set(halves.walls) and halves.area == whole.area
+    run = carom.run(halves, position=(1, 1), velocity=(1, 0), collisions=2)
+    assert run.hits["x"].tolist() == [2, 4] and abs(run.hits["vx"][0] - 0.4**0.5) < 1e-15
+    assert halves.plot() is not None
 
 
 def test_the_page_is_shown_with_the_system(monkeypatch, tmp_path):
