@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "carom/base/error.hpp"
+#include "carom/geometry/hull.hpp"
 
 namespace carom::geometry {
 

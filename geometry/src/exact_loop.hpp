@@ -42,8 +42,5 @@ double sample_parameter(double end, int n);  ///< the same for n > 0, as a param
 
 /// Displaced by a rounded vector and enlarged by that rounding.
 Box moved(const Box& box, Vector by);
-inline bool overlap(const Box& a, const Box& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
-}
 
 }  // namespace carom::geometry

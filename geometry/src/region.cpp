@@ -7,6 +7,7 @@
 #include <memory>
 #include <tuple>
 
+#include "carom/geometry/hull.hpp"
 #include "carom/geometry/lattice_copies.hpp"
 #include "contact.hpp"
 #include "exact_loop.hpp"

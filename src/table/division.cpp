@@ -40,10 +40,6 @@ Region region_of(const RegionSpec& spec) {
   return region;
 }
 
-bool overlap(const geometry::Box& a, const geometry::Box& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
-}
-
 std::string text_of(const ExactPoint& p) { return "(" + p.x.text() + ", " + p.y.text() + ")"; }
 
 /// Walls keep their numbers while others are added; at the end they are put in order, region by
@@ -133,7 +129,8 @@ class Division {
     for (int k = 0; k < static_cast<int>(rings_.size()); ++k) {
       Ring& ring = rings_[at(k)];
       // Boxes are larger than what is in them: whether one is in the other does not tell.
-      if (k == around || k == beside || ring.region != from || !overlap(ring.box, outer.box))
+      if (k == around || k == beside || ring.region != from ||
+          !geometry::overlap(ring.box, outer.box))
         continue;
       if (outline.empty()) outline = loop_of(outer);
       if (geometry::lies_inside(loop_of(ring), outline)) ring.region = to;

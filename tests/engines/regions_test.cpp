@@ -10,10 +10,9 @@
 #include "carom/base/error.hpp"
 #include "carom/engines/trajectories.hpp"
 #include "carom/events/medium.hpp"
-#include "carom/events/world.hpp"
-#include "carom/files/system_file.hpp"
 #include "carom/geometry/curve_frame.hpp"
 #include "carom/starts/start_measure.hpp"
+#include "region_orbits.hpp"
 
 namespace carom {
 namespace {
@@ -21,8 +20,6 @@ namespace {
 using geometry::Vector;
 
 constexpr double pi = 3.141592653589793;
-
-System system_of(const std::string& toml) { return read_system(toml, "test").system; }
 
 std::string box(const std::string& obstacle, const std::string& region,
                 const std::string& more = "") {
@@ -82,14 +79,6 @@ int lost(const Hits& hits) {
   int count = 0;
   for (const Fate fate : hits.fates) count += fate == Fate::lost;
   return count;
-}
-
-// One particle from a point.
-State at(Vector position, Vector velocity) {
-  State state;
-  state.position = position;
-  state.velocity = velocity;
-  return state;
 }
 
 TEST(Regions, BendALineThroughADiscAsSnellDoes) {
@@ -200,16 +189,8 @@ TEST(Regions, ThatAreAsTheOutsideAreNotThere) {
     const std::string none = "[table]\nshape = \"rectangle\"\nwidth = 4\nheight = 3\n" + field;
     const System with = system_of(box(disc, of_disc, field)), without = system_of(none);
     for (const double angle : {0.3, 1.9, 4.0}) {
-      World one(*with.table, with.dynamics), other(*without.table, without.dynamics);
-      const State start = at({0.5, 1.0}, {std::cos(angle), std::sin(angle)});
-      one.add(with.particles[0], start);
-      other.add(without.particles[0], start);
-      one.run_until(60.0);
-      other.run_until(60.0);
-      const State a = one.state_at(0, 60.0), b = other.state_at(0, 60.0);
-      EXPECT_NEAR(a.position.x, b.position.x, 1e-9);
-      EXPECT_NEAR(a.position.y, b.position.y, 1e-9);
-      EXPECT_GE(one.hits(0), other.hits(0));
+      expect_same_orbit(with, without, at({0.5, 1.0}, {std::cos(angle), std::sin(angle)}), 60.0,
+                        1e-9);
     }
   }
 }
@@ -221,22 +202,7 @@ TEST(Regions, AreFlownThroughBackwards) {
       "0]\nradius = 1\nname = \"core\"\n[[table.region]]\nwall = \"core\"\n";
   for (const char* region : {"index = 1.4\n", "potential = 0.2\n", "potential = -1\n"}) {
     const System system = system_of(rings + region);
-    World world(*system.table, system.dynamics);
-    const State start = at({1.5, 0.2}, {-0.8, 0.6});
-    world.add(Particle(), start);
-    world.run_until(100.0);
-    State back = world.state_at(0, 100.0);
-    EXPECT_GT(world.hits(0), 20u);
-    back.velocity = -back.velocity;
-    back.wall = -1;
-    back.time = 0.0;
-    world.clear();
-    world.add(Particle(), back);
-    world.run_until(100.0);
-    const State there = world.state_at(0, 100.0);
-    EXPECT_NEAR(there.position.x, start.position.x, 1e-11);
-    EXPECT_NEAR(there.position.y, start.position.y, 1e-11);
-    EXPECT_NEAR(there.velocity.x, 0.8, 1e-11);
+    expect_way_back(system, at({1.5, 0.2}, {-0.8, 0.6}), 100.0, 20, 1e-11);
   }
 }
 

@@ -38,7 +38,7 @@ struct Wall {
   double temperature = 0.0;
   /// The same piece of curve seen from the other side, of a wall between two regions; -1: none.
   int twin = -1;
-  bool closed = false;     ///< It has a twin, but nobody passes.
+  bool closed = false;     ///< It has a twin, but particles do not pass.
   std::vector<int> holes;  ///< indices into Table::holes, ordered by parameter
 };
 

@@ -1,4 +1,4 @@
-// The smallest box around others.
+// Boxes: the smallest one around others, and whether two overlap.
 #pragma once
 
 #include <algorithm>
@@ -24,6 +24,11 @@ Box hull_of(const List& list, BoxOf box_of) {
 }
 inline Box hull_of(const std::vector<Box>& boxes) {
   return hull_of(boxes, [](const Box& box) { return box; });
+}
+
+/// Edges count.
+inline bool overlap(const Box& a, const Box& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
 }
 
 }  // namespace carom::geometry
