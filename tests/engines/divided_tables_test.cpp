@@ -349,8 +349,12 @@ TEST(DividedTables, HaveSlits) {
 TEST(DividedTables, EndWhatMeetsTheEndOfAnEdge) {
   const double diagonal = std::sqrt(0.5);
   const System system = system_of(layers + right_of(2, "potential = 0.1\n"));
-  EXPECT_EQ(flown(system, at({1, 1}, {diagonal, -diagonal}), 4).fates,
-            std::vector<Fate>{Fate::singular});
+  // At either end, from outside and from within.
+  for (const double x : {1.0, 3.0})
+    for (const double y : {diagonal, -diagonal}) {
+      const State start = at({x, 1}, {x < 2.0 ? diagonal : -diagonal, y});
+      EXPECT_EQ(flown(system, start, 4).fates, std::vector<Fate>{Fate::singular}) << x << y;
+    }
   const Hits seen = flown(system, at({3, 1}, {diagonal, -diagonal}), 1);
   EXPECT_EQ(seen.fates, std::vector<Fate>{Fate::capped});
   EXPECT_EQ(seen.rows[0].after, -seen.rows[0].before);
