@@ -23,14 +23,6 @@ namespace {
 /// Particles from which on eight partners at a time pay.
 constexpr std::size_t worth_lanes = 16;
 
-template <class N>
-N whole_power(N x, int n) {
-  N result = 1.0;
-  for (; n > 0; n >>= 1, x = x * x)
-    if (n & 1) result = result * x;
-  return result;
-}
-
 /// `law` gives W and -W'/r at a squared distance, for unit charges where `charged`; `bound` bounds
 /// the force.
 template <class Law, class Bound>
@@ -166,7 +158,7 @@ std::unique_ptr<const Interaction> make_interaction(const InteractionSpec& s) {
           [e = s.depth, diameter = s.diameter](const central::Distances& d) {
             const double r = d.near - d.rho;
             if (!(r > 0.0)) return ForceBound{central::none, 0.0};
-            const double s6 = whole_power(diameter / r, 6);
+            const double s6 = power_by_squaring(diameter / r, 6);
             return ForceBound{24.0 * std::fabs(e) * s6 * (2.0 * s6 + 1.0) / r, 0.0};
           },
           false, 585.0 * s.diameter, tail_share * std::fabs(s.depth));
@@ -174,14 +166,14 @@ std::unique_ptr<const Interaction> make_interaction(const InteractionSpec& s) {
       return central_law(
           [k = s.strength, d = s.diameter, n = s.exponent]<class N>(N r2) {
             const N inverse = 1.0 / r2;
-            const N w = n % 2 == 0 ? k * whole_power<N>(d * d * inverse, n / 2)
-                                   : k * whole_power<N>(d * root(inverse), n);
+            const N w = n % 2 == 0 ? k * power_by_squaring<N>(d * d * inverse, n / 2)
+                                   : k * power_by_squaring<N>(d * root(inverse), n);
             return Pair<N>{w, n * w * inverse};
           },
           [k = s.strength, diameter = s.diameter, n = s.exponent](const central::Distances& d) {
             const double r = d.near - d.rho;
             if (!(r > 0.0)) return ForceBound{central::none, 0.0};
-            return ForceBound{std::fabs(k) * n * whole_power(diameter / r, n) / r, 0.0};
+            return ForceBound{std::fabs(k) * n * power_by_squaring(diameter / r, n) / r, 0.0};
           },
           false, s.diameter * elementary::exp(tail_exponent / s.exponent),
           tail_share * std::fabs(s.strength));

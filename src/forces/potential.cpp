@@ -22,14 +22,6 @@ using Kind = PotentialSpec::Kind;
 namespace {
 
 template <class N>
-N whole_power(N x, int n) {
-  N result = 1.0;
-  for (; n > 0; n >>= 1, x = x * x)
-    if (n & 1) result = result * x;
-  return result;
-}
-
-template <class N>
 N square(const BasicVector<N>& a) {
   return dot(a, a);
 }
@@ -171,7 +163,7 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
             // A whole even power is a product; another one goes through the logarithm.
             const double half = 0.5 * n;
             const bool whole = half == std::floor(half) && half > 0.0 && half <= 64.0;
-            const N lower = whole ? whole_power(r2, static_cast<int>(half) - 1)
+            const N lower = whole ? power_by_squaring(r2, static_cast<int>(half) - 1)
                                   : exponential((half - 1.0) * logarithm(r2));  // r^(n - 2)
             force = force - (k * n * lower) * d;
             return k * lower * r2;

@@ -14,8 +14,9 @@ namespace {
 
 using Vector = QuadForces::Vector;
 
-/// exp(-t) = 1e-18, rounded up.
-constexpr double quad_tail_exponent = 42.0;
+/// exp(-t) = 1e-34, rounded up: the force of what is cut off is below 34 digits, also of narrow and
+/// high bumps, and errors may grow.
+constexpr double quad_tail_exponent = 79.0;
 
 struct Text {
   const char* formula;

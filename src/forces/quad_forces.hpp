@@ -15,7 +15,7 @@
 namespace carom::forces {
 
 /// Potentials are summed from all centres; those of a lattice from all copies except for tails
-/// below 1e-18 of their height. Not finite where a formula has no slope, as r has none at 0.
+/// below 1e-34 of their height. Not finite where a formula has no slope, as r has none at 0.
 class QuadForces {
  public:
   using Vector = geometry::BasicVector<Quad>;

@@ -57,6 +57,20 @@ TEST(Comparisons, SayWhyAreasAreNotMeasured) {
       << text.out;
 }
 
+// The steps of an adaptive scheme change along the displacements: differences may err by half of
+// the form, and then they do not show that it is kept.
+TEST(Comparisons, DoNotKnowAreasFromDifferencesThatErr) {
+  const Shell shell;
+  const std::string typed = "$carom compare henon-heiles --schemes cvode --tolerances 1e-3 ";
+  const Outcome o = shell(typed + "--json"), text = shell(typed);
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(o.out.find("\"symplectic\": null"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("\"areas_reason\": \"the differences err by"), std::string::npos) << o.out;
+  EXPECT_NE(on_one_line(text.out).find("areas not measured (the differences err by"),
+            std::string::npos)
+      << text.out;
+}
+
 // Of a run that failed nothing is known, and of a single step not the way back.
 TEST(Comparisons, ShowNoNumbersThatAreNotKnown) {
   const Shell shell;

@@ -91,6 +91,11 @@ struct ComparedScheme {
   std::optional<bool> reversible;
 };
 
+/// A particle of the reference at the end, in the plane (unwrapped on a lattice).
+struct ComparedEnd {
+  double x = 0.0, y = 0.0, vx = 0.0, vy = 0.0;  ///< length, length/time
+};
+
 struct Comparison {
   double t = 0.0;                  ///< time of the comparison
   double growth = 1.0;             ///< of distances of neighbouring orbits until then
@@ -99,6 +104,7 @@ struct Comparison {
   bool exact = false;              ///< reference: exact flights, else a scheme
   std::string reference;           ///< its scheme
   double reference_step = 0.0, reference_error = 0.0;
+  std::vector<ComparedEnd> end;   ///< of the reference, one a particle
   std::uint64_t hits = 0;         ///< of the reference
   double longest_resolved = 0.0;  ///< of the steps that were tried; 0: no forces
   std::vector<ComparedScheme> schemes;

@@ -105,6 +105,8 @@ void write_result(const ArchiveFile& file, const Comparison& result, const std::
   write_columns(list.get(), std::span<const SchemeRow>(rows), name);
   write_names(list.get(), "order", schemes, name);
   write_names(list.get(), "reason", reasons, name);
+  const Handle end = file.group("end", "Where the reference ends, one row a particle");
+  write_columns(end.get(), std::span<const ComparedEnd>(result.end), name);
   const Handle group = file.group("runs", "Runs, scheme after scheme");
   write_columns(group.get(), std::span<const RunRow>(runs), name);
   write_names(group.get(), "scheme", schemes, name);
@@ -140,8 +142,9 @@ StoredComparison read_comparison(const std::string& name) {
     return Handle(H5Gopen2(file.get(), group, H5P_DEFAULT), H5Gclose);
   };
   const Handle all = opened("comparison"), list = opened("schemes"), group = opened("runs"),
-               provenance = opened("provenance");
+               end = opened("end"), provenance = opened("provenance");
   read_numbers(all.get(), result, name);
+  result.end = read_all_rows<ComparedEnd>(end.get(), name);
   result.reference = hdf5::read_string_attribute(all.get(), "reference", name);
   result.exact = result.reference == "exact flights";
   if (result.exact) result.reference.clear();

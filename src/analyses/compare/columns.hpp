@@ -44,6 +44,14 @@ struct Fields<Comparison> {
       field("hits", "1", "Hits of the reference", &Comparison::hits)};
 };
 template <>
+struct Fields<ComparedEnd> {
+  static constexpr std::tuple list{
+      field("x", "length", "Position of the reference at the end", &ComparedEnd::x),
+      field("y", "length", "Position of the reference at the end", &ComparedEnd::y),
+      field("vx", "length/time", "Velocity of the reference at the end", &ComparedEnd::vx),
+      field("vy", "length/time", "Velocity of the reference at the end", &ComparedEnd::vy)};
+};
+template <>
 struct Fields<analyses::StoredRunRow> {
   using RunRow = analyses::StoredRunRow;
   static constexpr std::tuple list{

@@ -268,6 +268,8 @@ Comparison compare(const System& system, const ComparePlan& plan) {
         std::string(reference_scheme) + (setting.in_34_digits ? " in 34 digits" : "");
   result.reference_step = setting.reference_step;
   result.reference_error = setting.reference_error;
+  for (const PlaneState& s : setting.reference.states.back())
+    result.end.push_back({s.position.x, s.position.y, s.velocity.x, s.velocity.y});
   result.hits = setting.reference.hits.size();
   result.longest_resolved = setting.longest_resolved;
   for (const std::string& name : names) {

@@ -12,8 +12,6 @@ namespace {
 
 /// Terms of forces that all orbits together may cost: some seconds.
 constexpr double most_terms = 1.5e6;
-/// Steps that the search for one hit takes, about: Newton's from a step's end to 34 digits.
-constexpr double steps_a_hit = 10.0;
 /// Errors below it are as good as none beside the rounding of a double.
 constexpr double wanted_error = 1e-17;
 /// The first steps are longer than those in doubles by 2 to this power. Where those of the same
@@ -63,8 +61,6 @@ std::optional<PreciseOrbit> precise_orbit(const Runs& runs, const std::string& n
   const Scheme& scheme = find_scheme(name);
   PreciseMotion motion(runs, scheme);
   const PrecisePlace start = motion.start();
-  const double cost = motion.terms_of_step(),
-               at_walls = steps_a_hit * static_cast<double>(expected.size());
   // Each halving divides the error by 2^order; by half as much at least, or it is not yet the
   // order that counts.
   const double least = std::ldexp(0.5, scheme.order);
@@ -73,12 +69,15 @@ std::optional<PreciseOrbit> precise_orbit(const Runs& runs, const std::string& n
   int misses = 0;
   const double first_step = std::ldexp(step_in_doubles, halvings_to_doubles);
   std::optional<PrecisePath> path;
-  double change = std::numeric_limits<double>::quiet_NaN(), spent = 0.0;
+  double change = std::numeric_limits<double>::quiet_NaN(), last_terms = 0.0;
   for (int steps = std::max(1, static_cast<int>(std::ceil(t / (first_step * parts))));;
        steps *= 2) {
-    spent += cost * (static_cast<double>(parts) * steps + at_walls);
-    if (spent > most_terms) return best;
-    std::optional<PrecisePath> finer = motion.follow(start, Quad(t), steps, expected);
+    // Twice the steps cost twice as much, nearly.
+    const double spent = motion.terms();
+    if (spent + 2.0 * last_terms > most_terms) return best;
+    std::optional<PrecisePath> finer = motion.follow(start, Quad(t), steps, expected, most_terms);
+    if (motion.terms() > most_terms && !finer) return best;
+    last_terms = motion.terms() - spent;
     if (path && finer) {
       const double before = change;
       change = distance(*path, *finer, units);

@@ -40,16 +40,17 @@ class Law final : public ForceLaw<Quad> {
   void accelerations(std::span<const QuadVector> position,
                      std::span<QuadVector> acceleration) const override {
     runs_.stop_if_asked();
-    forces_.accelerations(position, acceleration);
+    const int terms = forces_.accelerations(position, acceleration);
+    // Where no copy of a bump is near, it was looked for.
+    terms_ += std::max(static_cast<double>(terms), static_cast<double>(position.size()));
   }
-  int terms(std::span<const QuadVector> position) const {
-    std::vector<QuadVector> acceleration(position.size());
-    return forces_.accelerations(position, acceleration);
-  }
+  /// That have been evaluated so far.
+  double terms() const { return terms_; }
 
  private:
   const Runs& runs_;
   forces::QuadForces forces_;
+  mutable double terms_ = 0.0;
 };
 
 bool is_number(const QuadVector& a) { return a.x == a.x && a.y == a.y; }
@@ -131,8 +132,7 @@ class PreciseMotion::Motion {
         walls_(table_),
         omega_(omegas(runs.system())),
         stepper_(scheme, law_, omega_),
-        path_(stepper_, law_, omega_),
-        stages_(static_cast<double>(integrators::stages_of<Quad>(scheme).size())) {}
+        path_(stepper_, law_, omega_) {}
 
   PrecisePlace start() const {
     PrecisePlace place;
@@ -144,11 +144,10 @@ class PreciseMotion::Motion {
     return place;
   }
 
-  /// Kicks are every other stage.
-  double terms_of_step() const { return stages_ / 2.0 * law_.terms(start().phase.position); }
+  double terms() const { return law_.terms(); }
 
   std::optional<PrecisePath> follow(const PrecisePlace& from, const Quad& t, int steps_a_part,
-                                    std::span<const ComparedHit> expected) {
+                                    std::span<const ComparedHit> expected, double most_terms) {
     PrecisePath path;
     PrecisePlace& now = path.end;
     now = from;
@@ -157,7 +156,7 @@ class PreciseMotion::Motion {
     for (int part = 1; part <= parts; ++part) {
       for (int k = 0; k < steps_a_part; ++k) {
         const Quad begin = Quad(static_cast<double>((part - 1) * steps_a_part + k)) * step;
-        if (!take_step(begin, step, expected, path)) return {};
+        if (law_.terms() > most_terms || !take_step(begin, step, expected, path)) return {};
       }
       if (part > parts - states_compared) path.states.push_back(in_the_plane(now));
     }
@@ -258,7 +257,6 @@ class PreciseMotion::Motion {
   std::vector<Quad> omega_;
   integrators::SplittingStepper<Quad> stepper_;
   Path path_;
-  double stages_;
   Phase<Quad> next_;
 };
 
@@ -266,11 +264,12 @@ PreciseMotion::PreciseMotion(const Runs& runs, const Scheme& scheme)
     : motion_(std::make_unique<Motion>(runs, scheme)) {}
 PreciseMotion::~PreciseMotion() = default;
 PrecisePlace PreciseMotion::start() const { return motion_->start(); }
-double PreciseMotion::terms_of_step() const { return motion_->terms_of_step(); }
+double PreciseMotion::terms() const { return motion_->terms(); }
 std::optional<PrecisePath> PreciseMotion::follow(const PrecisePlace& from, const Quad& t,
                                                  int steps_a_part,
-                                                 std::span<const ComparedHit> expected) {
-  return motion_->follow(from, t, steps_a_part, expected);
+                                                 std::span<const ComparedHit> expected,
+                                                 double most_terms) {
+  return motion_->follow(from, t, steps_a_part, expected, most_terms);
 }
 
 }  // namespace analyses

@@ -1,6 +1,7 @@
 // One run of one scheme in 34 digits, among walls.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -51,11 +52,13 @@ class PreciseMotion {
   PrecisePlace start() const;
   /// Follows `from` until t with this many equal steps in each of the parts of that time. Nothing
   /// where other walls are hit than `expected` (particles and walls in their order), where a hit
-  /// grazes to rounding, where a particle is found outside, and where a force has no value.
+  /// grazes to rounding, where a particle is found outside, where a force has no value, and where
+  /// terms() exceeds `most_terms`.
   std::optional<PrecisePath> follow(const PrecisePlace& from, const Quad& t, int steps_a_part,
-                                    std::span<const ComparedHit> expected);
-  /// Terms of forces that a step costs at the start.
-  double terms_of_step() const;
+                                    std::span<const ComparedHit> expected,
+                                    double most_terms = std::numeric_limits<double>::infinity());
+  /// Terms of forces that have been evaluated so far: what following costs.
+  double terms() const;
 
  private:
   class Motion;

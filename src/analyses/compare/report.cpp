@@ -32,8 +32,14 @@ std::string in_brackets(const MeasuredNumber& number) {
 
 // The differences cannot tell the form's change from their own error.
 constexpr double errors_of_areas = 4.0;
+// Steps that change along the displacements make no smooth map: where the differences err by more,
+// they show nothing.
+constexpr double largest_error_of_areas = 1e-6;
+bool shows_areas(const ComparedScheme& scheme) {
+  return scheme.areas && scheme.areas->error <= largest_error_of_areas;
+}
 std::optional<bool> symplectic(const ComparedScheme& scheme) {
-  if (!scheme.areas) return {};
+  if (!shows_areas(scheme)) return {};
   return scheme.areas->value <= errors_of_areas * scheme.areas->error;
 }
 
@@ -114,7 +120,10 @@ std::string runs_table(const ComparedScheme& scheme) {
 
 // Why it is not known whether areas are kept, as a phrase; "" where it is.
 std::string why_no_areas(const ComparedScheme& scheme) {
-  if (scheme.areas) return {};
+  if (shows_areas(scheme)) return {};
+  if (scheme.areas)
+    return fmt::format("the differences err by {:.1g}: the steps change along them",
+                       scheme.areas->error);
   return scheme.areas_step > 0.0
              ? fmt::format("none of the steps of {:.3g} that were tried lies between hits",
                            scheme.areas_step)
@@ -222,7 +231,7 @@ Json scheme_json(const ComparedScheme& scheme) {
       .set("areas_error",
            number_if(scheme.areas.has_value(), scheme.areas ? scheme.areas->error : 0.0))
       .set("areas_step", number_if(scheme.areas.has_value(), scheme.areas_step))
-      .set("areas_reason", scheme.areas ? Json() : Json(why_no_areas(scheme)))
+      .set("areas_reason", shows_areas(scheme) ? Json() : Json(why_no_areas(scheme)))
       .set("work", work_json(scheme));
 }
 
@@ -244,6 +253,17 @@ std::string compare_text(const System& system, const Comparison& result, const s
   return text;
 }
 
+namespace {
+
+Json end_json(const std::vector<ComparedEnd>& end) {
+  Json list = Json::array();
+  for (const ComparedEnd& at : end)
+    list.push(Json::object().set("x", at.x).set("y", at.y).set("vx", at.vx).set("vy", at.vy));
+  return list;
+}
+
+}  // namespace
+
 Json compare_json(const System& system, const Comparison& result, const std::string& archive) {
   Json json = Json::object();
   add_common_keys(json, system, 1, result.seconds, result.cpu_seconds);
@@ -257,7 +277,8 @@ Json compare_json(const System& system, const Comparison& result, const std::str
                .set("scheme", result.exact ? Json("exact flights") : Json(result.reference))
                .set("step", number_if(!result.exact, result.reference_step))
                .set("error", result.reference_error)
-               .set("hits", result.hits));
+               .set("hits", result.hits)
+               .set("end", end_json(result.end)));
   json.set("longest_resolved", number_if(!result.exact, result.longest_resolved));
   json.set("error", result.error);
   json.set("cheapest", result.cheapest ? work_json(result.schemes[*result.cheapest]) : Json());

@@ -16,7 +16,6 @@
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
-#include "cli/reports/grounds.hpp"
 #include "files/describe/json_out.hpp"
 
 namespace carom::cli {
@@ -170,12 +169,8 @@ std::string result_text(const System& system, const EscapeResult& result,
   text += decay_text(decay_of(system, result));
   text += decay_by_hits_text(fit_decay_by_hits(counts));
   text += fates(system, counts);
-  if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
-  text += "\n" + work_text(system, counts.collisions, counts.contacts, result);
-  text += verbose_text(system, result, context, result.effort);
-  text += grounds_text(system, result.steps, true);
-  if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
-  return text;
+  return text +
+         closing_text(system, result, counts.collisions, counts.contacts, context, result.effort);
 }
 
 }  // namespace carom::cli

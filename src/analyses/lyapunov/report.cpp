@@ -15,7 +15,6 @@
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
-#include "cli/reports/grounds.hpp"
 #include "files/describe/json_out.hpp"
 
 namespace carom::cli {
@@ -402,12 +401,7 @@ std::string result_text(const System& system, const LyapunovResult& result,
   for (const std::string& note : notes_of(system, result, e)) text += folded(note) + '\n';
   if (const std::string ends = fates_text(result); !ends.empty())
     text += "\nof the particles: " + ends + "\n";
-  if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
-  text += "\n" + work_text(system, result.collisions, result.contacts, result);
-  text += verbose_text(system, result, context);
-  text += grounds_text(system, result.steps, true);
-  if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
-  return text;
+  return text + closing_text(system, result, result.collisions, result.contacts, context);
 }
 
 }  // namespace carom::cli

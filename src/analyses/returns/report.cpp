@@ -12,7 +12,6 @@
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/ensemble_reports.hpp"
-#include "cli/reports/grounds.hpp"
 #include "cli/reports/starts_report.hpp"
 #include "files/describe/json_out.hpp"
 
@@ -112,12 +111,7 @@ std::string result_text(const System& system, const ReturnsResult& result,
                       expected ? std::optional(expected->hits) : std::nullopt);
   }
   if (const std::string others = fates_text(result); !others.empty()) text += others + '\n';
-  if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
-  text += "\n" + work_text(system, result.collisions, result.contacts, result);
-  text += verbose_text(system, result, context);
-  text += grounds_text(system, result.steps, true);
-  if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
-  return text;
+  return text + closing_text(system, result, result.collisions, result.contacts, context);
 }
 
 }  // namespace carom::cli

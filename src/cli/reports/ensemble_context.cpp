@@ -8,23 +8,13 @@
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
+#include "cli/reports/grounds.hpp"
 
 namespace carom::cli {
 
 using files::Json;
 
-std::string head_text(const System& system, std::uint64_t trajectories, double last_time,
-                      bool complete, const EnsembleContext& context) {
-  // Particles were counted.
-  const std::size_t each = system.injections.empty() ? system.particles.size() : 1;
-  return heading(system) +
-         folded(fmt::format(
-             "{}{} {}, seed {}{}{}", counted(trajectories / each, "trajectory"),
-             each > 1 ? fmt::format(" of {} particles", each) : "", until(last_time),
-             system.run.seed, context.shard.of > 1 ? ", part " + text_of(context.shard) : "",
-             complete ? "" : "  (" + context.status + ": those that were finished)")) +
-         '\n';
-}
+namespace {
 
 std::string work_text(const System& system, std::uint64_t collisions, std::uint64_t contacts,
                       const EnsembleResult& result) {
@@ -46,16 +36,38 @@ std::string work_text(const System& system, std::uint64_t collisions, std::uint6
   return text.substr(0, last) + folded(text.substr(last)) + '\n';
 }
 
+}  // namespace
+
+std::string head_text(const System& system, std::uint64_t trajectories, double last_time,
+                      bool complete, const EnsembleContext& context) {
+  // Particles were counted.
+  const std::size_t each = system.injections.empty() ? system.particles.size() : 1;
+  return heading(system) +
+         folded(fmt::format(
+             "{}{} {}, seed {}{}{}", counted(trajectories / each, "trajectory"),
+             each > 1 ? fmt::format(" of {} particles", each) : "", until(last_time),
+             system.run.seed, context.shard.of > 1 ? ", part " + text_of(context.shard) : "",
+             complete ? "" : "  (" + context.status + ": those that were finished)")) +
+         '\n';
+}
+
 std::string rows_text(std::size_t all, const EnsembleContext& context) {
   if (all <= context.rows) return {};
   return fmt::format("  of {} rows; --verbose prints all\n", grouped(all));
 }
 
-std::string verbose_text(const System& system, const EnsembleResult& result,
+std::string closing_text(const System& system, const EnsembleResult& result,
+                         std::uint64_t collisions, std::uint64_t contacts,
                          const EnsembleContext& context, const LaneEffort& effort) {
-  if (!context.verbose) return {};
-  return fmt::format("{}\n{}digest {:016x}\n", decisions_text(result.decisions),
-                     lanes_text(why_one_by_one(system), result.lanes, effort), result.digest);
+  std::string text;
+  if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
+  text += "\n" + work_text(system, collisions, contacts, result);
+  if (context.verbose)
+    text += fmt::format("{}\n{}digest {:016x}\n", decisions_text(result.decisions),
+                        lanes_text(why_one_by_one(system), result.lanes, effort), result.digest);
+  text += grounds_text(system, result.steps, true);
+  if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
+  return text;
 }
 
 std::string no_errors(std::ptrdiff_t empty, const char* lack) {

@@ -29,12 +29,10 @@ std::string head_text(const System&, std::uint64_t trajectories, double until, b
                       const EnsembleContext&);
 /// What is said below a table of 12 of 31 times; "" where all are in it.
 std::string rows_text(std::size_t all, const EnsembleContext&);
-/// "1 000 collisions in 0.1 s on 2 threads: 10 khits/s …".
-std::string work_text(const System&, std::uint64_t collisions, std::uint64_t contacts,
-                      const EnsembleResult&);
-/// What only --verbose prints: decisions, digest, lanes.
-std::string verbose_text(const System&, const EnsembleResult&, const EnsembleContext&,
-                         const LaneEffort& = {});
+/// The last lines of the text: what the energy did, "1 000 collisions in 0.1 s on 2 threads …",
+/// what only --verbose prints (decisions, lanes, digest), what was checked, and the archive.
+std::string closing_text(const System&, const EnsembleResult&, std::uint64_t collisions,
+                         std::uint64_t contacts, const EnsembleContext&, const LaneEffort& = {});
 /// Why quasi-random starts give no errors, as a phrase: so many of their replicates lack what is
 /// counted ("have no trajectory"). "" where none does.
 std::string no_errors(std::ptrdiff_t empty, const char* lack);

@@ -339,6 +339,32 @@ TEST(HitsIn34Digits, AParticleOutsideIsRefused) {
   EXPECT_TRUE(motion.follow(place, step * parts / 16.0, 1, {}));
 }
 
+// From between the bumps of a lattice no formula is evaluated for a while; what is looked for
+// costs, too, and an orbit that costs more than it may ends.
+TEST(HitsIn34Digits, AnOrbitThatCostsTooMuchEnds) {
+  const System system = make_system(R"(
+[lattice]
+vectors = [[1, 0], [0, 1]]
+[[potential]]
+kind = "fermi"
+height = 200
+radius = 0.08
+softness = 0.001
+lattice = true
+[initial]
+kind = "point"
+position = [0.5, 0.5]
+velocity = [0.6, 0.8]
+[integrator]
+step = 0.0002
+)");
+  const Runs runs(system, 0, {});
+  PreciseMotion motion(runs, find_scheme("mclachlan-ss17"));
+  EXPECT_FALSE(motion.follow(motion.start(), 1.0, 1000, {}, 200.0));
+  EXPECT_GT(motion.terms(), 200.0);
+  EXPECT_LT(motion.terms(), 300.0);
+}
+
 // Other hits than those of the reference in doubles are no orbit of the same system.
 TEST(HitsIn34Digits, OtherHitsThanExpectedAreRefused) {
   const System system = make_system(ball);

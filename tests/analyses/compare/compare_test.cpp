@@ -104,6 +104,12 @@ step = 0.05
   }
   const Comparison result = compare(system, {.schemes = {"velocity-verlet"}, .t_max = t});
   EXPECT_EQ(result.reference, "mclachlan-ss17 in 34 digits");
+  ASSERT_EQ(result.end.size(), 1u);
+  EXPECT_NEAR(result.end[0].x, static_cast<double>(a * std::cos(fast * t) + b * std::cos(slow * t)),
+              3e-16);
+  EXPECT_NEAR(result.end[0].vy,
+              static_cast<double>(a * fast * std::cos(fast * t) + b * slow * std::cos(slow * t)),
+              1e-15);
 }
 
 // A cone has no slope at its tip: formulas give no number there.
