@@ -16,9 +16,7 @@ foreach(set carom-geometry-targets carom-targets)
   install(EXPORT ${set} NAMESPACE carom:: DESTINATION ${carom_package_dir} COMPONENT library)
 endforeach()
 
-# The maps are a witness for the tests: neither their header nor their library is installed.
-install(DIRECTORY include/ geometry/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT library
-  PATTERN maps EXCLUDE)
+install(DIRECTORY include/ geometry/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT library)
 
 configure_package_config_file(cmake/carom-config.cmake.in ${PROJECT_BINARY_DIR}/carom-config.cmake
   INSTALL_DESTINATION ${carom_package_dir})

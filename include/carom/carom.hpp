@@ -10,7 +10,6 @@
 #include "carom/analyses/diffusion/mean_square_displacement.hpp"
 #include "carom/analyses/escape.hpp"
 #include "carom/analyses/escape/decay.hpp"
-#include "carom/analyses/escape/escape_times.hpp"
 #include "carom/analyses/escape/survival.hpp"
 #include "carom/analyses/kinds.hpp"
 #include "carom/analyses/lyapunov.hpp"

@@ -217,7 +217,7 @@ class System:
     def region(self, wall=None, **keys) -> "System":
         """Particles enter the obstacle of that wall; or without one what is on the left of an edge, {start,
         pieces}, from one corner of the table to another. index, potential (energy), B: within; reflection:
-        "none", "s" or "p"."""
+        "none", "s", "p", or a formula in incidence, refraction and n."""
         return self._append(toml.section("table.region", {"wall": wall, **keys}, True))
 
     def closed(self) -> "System":

@@ -31,12 +31,18 @@ Region region_of(const RegionSpec& spec) {
     throw InputError(spec.index.place(), "a refractive index is above 0", "a positive number");
   if (region.index != 1.0 && region.potential != 0.0)
     throw InputError(spec.potential.place(), "a region has an index or a potential", "one of them");
-  if (spec.reflection == "s") region.reflection = Region::Reflection::s;
-  if (spec.reflection == "p") {
-    region.reflection = Region::Reflection::p;
-    if (region.potential != 0.0)
-      throw InputError(spec.place, "a potential has no polarisation", "reflection = \"s\"");
-  }
+  using enum Region::Reflection;
+  const std::string& mirrored = spec.reflection.text;
+  region.reflection = mirrored.empty() || mirrored == "none" ? none
+                      : mirrored == "s"                      ? s
+                      : mirrored == "p"                      ? p
+                                                             : typed;
+  if (region.reflection == p && region.potential != 0.0)
+    throw InputError(spec.place, "a potential has no polarisation", "reflection = \"s\"");
+  if (region.reflection == typed)
+    region.fraction =
+        TypedExpression::parse(mirrored, std::vector<std::string>{"incidence", "refraction", "n"},
+                               {}, spec.reflection.place);
   return region;
 }
 

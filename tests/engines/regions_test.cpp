@@ -224,6 +224,49 @@ TEST(Regions, MirrorAsWavesDo) {
   }
 }
 
+/// A fraction that is typed: of a mirror that changes nothing else, and that of a wave.
+TEST(Regions, MirrorByAFormula) {
+  const Hits seen = hits_of(
+      system_of(box(half, of_half + "reflection = \"0.3*n\"\n",
+                    "[initial]\nposition = [1, 1.5]\nvelocity = [1, 0]\n[run]\nt_max = 1.5\n"
+                    "trajectories = 4000\n")));
+  double mirrored = 0.0;
+  for (const Hits::Row& row : seen.rows) mirrored += row.region_after == -1;
+  EXPECT_EQ(seen.rows.size(), 4000u);
+  EXPECT_NEAR(mirrored / 4000.0, 0.3, 4.0 * std::sqrt(0.21 / 4000.0));
+
+  const auto digest = [](const std::string& reflection) {
+    return run_escape(
+               system_of(box(disc, of_disc + "index = 1.5\nreflection = \"" + reflection + "\"\n",
+                             "[initial]\nkind = \"uniform\"\n[run]\nt_max = 20\n"
+                             "trajectories = 300\n")))
+        .digest;
+  };
+  EXPECT_EQ(digest("((cos(incidence) - n*cos(refraction))/(cos(incidence) + n*cos(refraction)))^2"),
+            digest("s"));
+  EXPECT_EQ(digest("((cos(incidence)*n - cos(refraction))/(cos(incidence)*n + cos(refraction)))^2"),
+            digest("p"));
+  EXPECT_NE(digest("s"), digest("p"));
+}
+
+/// What is no fraction ends an orbit and says so; names that the formula has not are refused.
+TEST(Regions, MirrorByNoOtherNumbers) {
+  const EscapeResult result =
+      run_escape(system_of(box(disc, of_disc + "reflection = \"2*sin(incidence)\"\n",
+                               "[initial]\nkind = \"uniform\"\n[run]\nt_max = 20\n"
+                               "trajectories = 100\n")));
+  EXPECT_GT(result.counts.unresolved, 50u);
+  ASSERT_FALSE(result.reports.empty());
+  EXPECT_NE(result.reports.front().second.find("`reflection`"), std::string::npos);
+  try {
+    system_of(box(disc, of_disc + "reflection = \"sin(angle)\"\n"));
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("incidence"), std::string::npos) << error.what();
+    EXPECT_GT(error.place().line, 0);
+  }
+}
+
 TEST(Regions, GoOnFromAnyStateBitByBit) {
   const System system = system_of(box(disc, of_disc + "index = 1.5\nB = 0.7\n"));
   World whole(*system.table, system.dynamics);

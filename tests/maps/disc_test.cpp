@@ -4,7 +4,7 @@
 #include <numbers>
 #include <random>
 
-#include "carom/maps/maps.hpp"
+#include "maps/closed/maps.hpp"
 #include "maps/within.hpp"
 
 namespace carom::maps {

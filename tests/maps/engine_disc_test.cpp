@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "carom/maps/maps.hpp"
+#include "maps/closed/maps.hpp"
 #include "maps/engine.hpp"
 #include "maps/within.hpp"
 

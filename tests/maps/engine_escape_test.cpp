@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "carom/analyses/escape.hpp"
-#include "carom/maps/maps.hpp"
+#include "maps/closed/maps.hpp"
 #include "maps/engine.hpp"
 
 namespace carom {

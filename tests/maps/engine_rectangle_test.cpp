@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "carom/maps/maps.hpp"
+#include "maps/closed/maps.hpp"
 #include "maps/engine.hpp"
 
 namespace carom {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "carom/analyses/orbits.hpp"
-#include "carom/maps/maps.hpp"
 #include "carom/table/make.hpp"
+#include "maps/closed/maps.hpp"
 
 namespace carom {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "carom/maps/maps.hpp"
+#include "maps/closed/maps.hpp"
 #include "maps/within.hpp"
 
 namespace carom::maps {

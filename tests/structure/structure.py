@@ -53,8 +53,9 @@ OTHER_ANALYSES = {
 ALL_ANALYSES = {"kinds", "all", "checks"}
 # The list of kinds, for templates that are made once for each: their files name no single one.
 KINDS = ("files", "include/carom/analyses/kinds.hpp")
-# The closed-form maps check the engine, so they share nothing with it.
-MAPS_MAY_INCLUDE = {"carom/maps/maps.hpp", "carom/base/error.hpp"}
+# The closed-form maps of the tests check the engine, so they share nothing with it.
+CLOSED_MAPS = "tests/maps/closed"
+MAPS_MAY_INCLUDE = {"maps/closed/maps.hpp", "carom/base/error.hpp"}
 # Generated into the build folder: header and its module.
 GENERATED = {"carom_version.hpp": "base"}
 UMBRELLA = "include/carom/carom.hpp"
@@ -80,7 +81,7 @@ PACKAGES = {
 # C++ files in which states, times and random numbers are made, and what is stored in archives of ensembles, which
 # are compared bit by bit; base/elementary.cpp is the door.
 LIBM_FREE = (
-    r"include/carom/(?!maps/)|geometry/|src/(base|table|motion|forces|integrators|events|lanes|orbits|system|results|starts|engines)/"
+    r"include/carom/|geometry/|src/(base|table|motion|forces|integrators|events|lanes|orbits|system|results|starts|engines)/"
     r"|src/analyses/\w+/(?!report|command)"
 )
 # What makes these functions the same everywhere: right rounding behind the first ones, Boost behind the last.
@@ -178,14 +179,9 @@ def check_includes(root):
                     yield f'{place}: write "{header}" inside the project'
                 continue
             if path == UMBRELLA:
-                if header.startswith("carom/maps/"):
-                    yield f"{place}: the maps check the library and are not a part of it"
                 continue
             target = included_module(root, path, header)
-            if module == "maps":
-                if header not in MAPS_MAY_INCLUDE:
-                    yield f"{place}: maps/ includes nothing of the project but base/error.hpp, not {header}"
-            elif module not in DEPENDENCIES:
+            if module not in DEPENDENCIES:
                 yield f"{place}: no module is declared as '{module}'"
             elif target is None:
                 yield f"{place}: no such header in the project: {header}"
@@ -195,6 +191,10 @@ def check_includes(root):
                 other = analysis_of(included_file(root, path, header) or "")
                 if other not in (None, analysis, *OTHER_ANALYSES.get(analysis, [])):
                     yield f"{place}: analyses/{analysis} must not include analyses/{other} ({header})"
+    for path in sorted((root / CLOSED_MAPS).glob("*.?pp")):
+        for quote, header in INCLUDE.findall(without_comments(path.read_text(encoding="utf-8"), strings=False)):
+            if quote == '"' and header not in MAPS_MAY_INCLUDE:
+                yield f"{CLOSED_MAPS}/{path.name}: the maps include nothing of the project but base/error.hpp, not {header}"
     # Examples see what users see: an installed library.
     for path in sorted((root / "examples").glob("*.cpp")):
         for match in INCLUDE.finditer(without_comments(path.read_text(encoding="utf-8"), strings=False)):
@@ -203,7 +203,7 @@ def check_includes(root):
 
 
 def check_umbrella(root):
-    """Every public header comes with UMBRELLA, but for the maps."""
+    """Every public header comes with UMBRELLA."""
     reached, ahead = set(), [UMBRELLA]
     while ahead:
         path = ahead.pop()
@@ -213,7 +213,7 @@ def check_umbrella(root):
         code = without_comments((root / path).read_text(encoding="utf-8"), strings=False)
         ahead += [f"include/{header}" for _, header in INCLUDE.findall(code) if header.startswith("carom/")]
     for path, _ in sources(root):
-        if path.startswith("include/") and not path.startswith("include/carom/maps/") and path not in reached:
+        if path.startswith("include/") and path not in reached:
             yield f"{path} is not part of {UMBRELLA}"
 
 

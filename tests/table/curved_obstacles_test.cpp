@@ -157,7 +157,7 @@ TEST(CurvedObstacles, StandInCellsAndInTheOpenPlane) {
 
 TEST(CurvedObstacles, CanBeRegions) {
   TableSpec spec = with(square(), dome(false));
-  spec.regions.push_back({"obstacle_1_2", {}, 1, 0, ExactNumber("2"), "none", {}, {}});
+  spec.regions.push_back({"obstacle_1_2", {}, 1, 0, ExactNumber("2"), {}, {}, {}});
   spec.regions[0].index = ExactNumber(1.0);
   const Table table = build_table(spec);
   ASSERT_EQ(table.regions.size(), 1u);

@@ -174,7 +174,7 @@ class System:
         return text + f"[integrator]\n{integrator}\n[run]\nt_max = {self.t_max if t_max is None else t_max!r}\n"
 
 
-def ask(file, words, seconds=60):
+def ask(file, words, seconds=300):
     """What the program prints, its exit status and messages: a refusal is an answer, too."""
     try:
         done = subprocess.run([trials.program, *words, str(file), "--json", "--quiet"], capture_output=True, text=True,

@@ -34,14 +34,11 @@ Horizon horizon_of(const System&);
 /// Why there is no D, as a phrase; "" where there is one.
 std::string no_diffusion(const Horizon&);
 
-/// What a diffusion run adds up; of an interrupted one, whole trajectories.
-struct DiffusionResult : EnsembleResult, FateCounts {
+/// What a diffusion run adds up; of an interrupted one, whole trajectories. The fates are those
+/// before the last report time.
+struct DiffusionResult : EnsembleResult, EndCounts {
   DisplacementSums sums;
   FreePathSums free_paths;  ///< with RunPlan::free_paths
-  /// Particles of all trajectories; the fates are those before the last report time.
-  std::uint64_t trajectories = 0;
-  std::uint64_t collisions = 0;
-  std::uint64_t contacts = 0;  ///< of hard discs, each pair once
   double energy_change =
       0.0;  ///< with forces: the largest of a trajectory from its start to its end
 

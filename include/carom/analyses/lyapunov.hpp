@@ -18,8 +18,9 @@
 
 namespace carom {
 
-/// What a run adds up; of an interrupted one, whole trajectories.
-struct LyapunovResult : EnsembleResult, FateCounts {
+/// What a run adds up; of an interrupted one, whole trajectories. The fates are those before the
+/// end of the window.
+struct LyapunovResult : EnsembleResult, EndCounts {
   using RecordFields = ExponentFields;
   /// Of the particles that were followed to the end of the window.
   GrowthSums growth;
@@ -27,10 +28,6 @@ struct LyapunovResult : EnsembleResult, FateCounts {
   ConvergenceSums convergence;  ///< of the same; without times in archives of older versions
   DriftSums drift;              ///< of the same particles; empty in archives of older versions
   DriftSums entropy_drift;      ///< with RunPlan::spectrum
-  /// Particles of all trajectories; the fates are those before the end of the window.
-  std::uint64_t trajectories = 0;
-  std::uint64_t collisions = 0;
-  std::uint64_t contacts = 0;  ///< of hard discs, each pair once
   /// Where most orbits leave before the end of the window: of those that never would.
   std::optional<RepellerExponent> repeller;
   /// Why there is no `repeller` although it was looked for; not kept in archives.

@@ -77,11 +77,8 @@ struct ExpectedReturns {
 };
 std::optional<ExpectedReturns> expected_returns(const System&);
 
-struct ReturnsResult : EnsembleResult, FateCounts {
+struct ReturnsResult : EnsembleResult, EndCounts {
   ReturnSums sums;
-  std::uint64_t trajectories = 0;  ///< particles of all trajectories
-  std::uint64_t collisions = 0;
-  std::uint64_t contacts = 0;
 
   /// Adds another part of the same ensemble, in any order the same. False, and no change, where a
   /// trajectory is in both.

@@ -144,7 +144,7 @@ struct SingleRunOptions {
   std::function<void(const World&)> started;  ///< called once, when all starts are in the world
   /// Index: which start is drawn, also of the run that is resumed. None: it is not known any more.
   std::optional<std::uint64_t> trajectory = 0;
-  /// Under forces: costs up to three times the run from its start (ensemble/state_error.hpp).
+  /// Under forces: costs up to three times the run from its start (run/state_error.hpp).
   bool estimate_state_error = false;
   /// What the system's doubles were rounded from; null: they are what is meant.
   std::shared_ptr<const trust::WrittenSystem> written;

@@ -29,7 +29,7 @@ namespace carom {
 /// (docs/physics/walls-in-steps.md).
 class World {
  public:
-  /// For free particles: no forces act. make_world(system) (ensemble/trajectories.hpp) makes the
+  /// For free particles: no forces act. make_world(system) (engines/trajectories.hpp) makes the
   /// world of a System with its forces. Keeps a reference to the table, which must live as long.
   /// InputError: an arc is too flat.
   explicit World(const Table& table, DecisionOptions options = {});

@@ -22,7 +22,7 @@ struct IntegratorPlan {
   double resolution_margin = 1.0;
   double energy_tolerance =
       1e-3;  ///< largest change of the energy over the largest kinetic energy that is accepted
-  bool step_chosen = false;  ///< the step is not of the file: ensemble/choose_step.hpp found it
+  bool step_chosen = false;  ///< the step is not of the file: engines/choose_step.hpp found it
 };
 
 inline constexpr double default_tolerance = 1e-12;  ///< of an adaptive scheme

@@ -42,4 +42,19 @@ struct Fields<FateCounts> {
 
 inline void FateCounts::add_fates(const FateCounts& other) { add_fields(*this, other); }
 
+/// The fates, and what happened until then.
+struct EndCounts : FateCounts {
+  /// Trajectories; where particles are counted one by one, the particles of all of them.
+  std::uint64_t trajectories = 0;
+  std::uint64_t collisions = 0;
+  std::uint64_t contacts = 0;  ///< of hard discs, each pair once
+
+  void add_ends(const EndCounts& other) {
+    add_fates(other);
+    trajectories += other.trajectories;
+    collisions += other.collisions;
+    contacts += other.contacts;
+  }
+};
+
 }  // namespace carom

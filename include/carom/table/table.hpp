@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "carom/forces/typed_expression.hpp"
 #include "carom/geometry/curve.hpp"
 #include "carom/geometry/lattice.hpp"
 #include "carom/table/table_spec.hpp"
@@ -55,9 +56,13 @@ struct Region {
   std::optional<double> field;  ///< B; none: as outside
   double index = 1.0;      ///< refractive index relative to the outside: the speed is speed/index
   double potential = 0.0;  ///< an energy; outside it is 0
-  /// Which share of the hits is mirrored although they could pass: none, or that of a wave whose
-  /// amplitude is continuous, with its normal derivative (s) or that over index squared (p).
-  enum class Reflection : unsigned char { none, s, p } reflection = Reflection::none;
+  /// Which fraction of the hits is mirrored although they could pass: none; that of a wave whose
+  /// amplitude is continuous, with its normal derivative (s) or that over index squared (p); or
+  /// `fraction`.
+  enum class Reflection : unsigned char { none, s, p, typed } reflection = Reflection::none;
+  /// Of the angles to the normal before the edge and behind it, and of the ratio of the momenta
+  /// behind it and before it.
+  std::optional<TypedExpression> fraction;
 };
 
 /// By how much walls differ from the curves that were written as formulas, at most and without

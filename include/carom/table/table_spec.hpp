@@ -98,7 +98,7 @@ struct RegionSpec {
   LoopSpec edge;     ///< from a corner of the walls to another one
   ExactNumber index, potential;
   std::optional<ExactNumber> field;
-  std::string reflection;
+  WrittenFormula reflection;  ///< a word or a formula; "": none
   Place place, wall_place;
 };
 

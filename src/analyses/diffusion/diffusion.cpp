@@ -54,10 +54,7 @@ bool DiffusionResult::add(const DiffusionResult& other) {
   if (!add_common(other)) return false;
   sums.merge(other.sums);
   free_paths.merge(other.free_paths);
-  trajectories += other.trajectories;
-  add_fates(other);
-  collisions += other.collisions;
-  contacts += other.contacts;
+  add_ends(other);
   energy_change = std::max(energy_change, other.energy_change);
   return true;
 }

@@ -253,7 +253,7 @@ std::string result_text(const System& system, const DiffusionResult& result,
   text += free_paths_text(system, result, summary.horizon, context);
   if (const std::string ends = fates_text(result); !ends.empty())
     text += "\nof the particles: " + ends + "\n";
-  return text + closing_text(system, result, result.collisions, result.contacts, context);
+  return text + closing_text(system, result, result, context);
 }
 
 }  // namespace carom::cli

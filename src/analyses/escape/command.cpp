@@ -1,9 +1,51 @@
 // carom escape: survival probability and escape rate of an ensemble.
-#include "analyses/escape/command_options.hpp"
+#include <fmt/format.h>
+
+#include "carom/base/error.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/ensemble_job.hpp"
+#include "cli/common.hpp"
 
 namespace carom::cli {
+
+namespace {
+
+void refuse_parts_of_others(const Options& options) {
+  if (is_plain_ensemble(options)) return;
+  const char* const only = "a plain ensemble, without --splitting";
+  if (!options.resume.empty())
+    throw InputError(place_of("--resume"), "this cannot be continued", only);
+  if (!options.shard.empty()) throw InputError(place_of("--shard"), "this cannot be divided", only);
+}
+
+}  // namespace
+
+void check_escape_options(const Options& options) {
+  const auto refuse = [](const std::string& given, const char* option, const char* other) {
+    if (!given.empty())
+      throw InputError(place_of(option), fmt::format("it has no effect without {}", other), other);
+  };
+  const auto refuse_beside = [](const std::string& given, const char* option, const char* other) {
+    if (!given.empty())
+      throw InputError(place_of(option), fmt::format("it cannot be combined with {}", other),
+                       "one of the two");
+  };
+  if (!options.splitting.empty()) {
+    refuse_beside(options.block, "--block", "--splitting");
+    refuse_beside(options.checkpoint, "--checkpoint", "--splitting");
+    refuse_beside(options.overrides.trajectories, "--trajectories",
+                  "--splitting, which has --population");
+    refuse_beside(options.isa == "auto" ? "" : options.isa, "--isa",
+                  "--splitting, which takes the widest lanes");
+    if (options.splitting.starts_with("hits:"))
+      refuse_beside(options.overrides.times, "--times", "levels of hits");
+  }
+  if (!options.splitting.empty()) return;
+  refuse(options.population, "--population", "--splitting");
+  refuse(options.repetitions, "--repetitions", "--splitting");
+  refuse(options.kick, "--kick", "--splitting");
+  refuse(options.lookback, "--lookback", "--splitting");
+}
 
 int escape(const Options& options) {
   refuse_parts_of_others(options);

@@ -169,8 +169,7 @@ std::string result_text(const System& system, const EscapeResult& result,
   text += decay_text(decay_of(system, result));
   text += decay_by_hits_text(fit_decay_by_hits(counts));
   text += fates(system, counts);
-  return text +
-         closing_text(system, result, counts.collisions, counts.contacts, context, result.effort);
+  return text + closing_text(system, result, counts, context, result.effort);
 }
 
 }  // namespace carom::cli

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "carom/analyses/escape/escape_times.hpp"
+#include "carom/analyses/escape/survival.hpp"
 
 namespace carom::analyses {
 

@@ -125,7 +125,7 @@ void GoneCounts::merge(const GoneCounts& other) {
 }
 
 void SurvivalCounts::merge(const SurvivalCounts& other) {
-  add_fates(other);
+  add_ends(other);
   GoneCounts::merge(other);
   if (parts.size() != other.parts.size())
     throw InternalError("merged ensembles differ in their replicates");
@@ -136,9 +136,6 @@ void SurvivalCounts::merge(const SurvivalCounts& other) {
   gone_at.merge(other.gone_at);
   gone_after.merge(other.gone_after);
   fewest_hits_of_survivor = std::min(fewest_hits_of_survivor, other.fewest_hits_of_survivor);
-  trajectories += other.trajectories;
-  collisions += other.collisions;
-  contacts += other.contacts;
   most_hits = std::max(most_hits, other.most_hits);
   energy_change = std::max(energy_change, other.energy_change);
 }

@@ -169,10 +169,7 @@ bool LyapunovResult::add(const LyapunovResult& other) {
   spectrum.merge(other.spectrum);
   drift.merge(other.drift);
   entropy_drift.merge(other.entropy_drift);
-  trajectories += other.trajectories;
-  add_fates(other);
-  collisions += other.collisions;
-  contacts += other.contacts;
+  add_ends(other);
   return true;
 }
 

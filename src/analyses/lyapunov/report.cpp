@@ -401,7 +401,7 @@ std::string result_text(const System& system, const LyapunovResult& result,
   for (const std::string& note : notes_of(system, result, e)) text += folded(note) + '\n';
   if (const std::string ends = fates_text(result); !ends.empty())
     text += "\nof the particles: " + ends + "\n";
-  return text + closing_text(system, result, result.collisions, result.contacts, context);
+  return text + closing_text(system, result, result, context);
 }
 
 }  // namespace carom::cli

@@ -111,7 +111,7 @@ std::string result_text(const System& system, const ReturnsResult& result,
                       expected ? std::optional(expected->hits) : std::nullopt);
   }
   if (const std::string others = fates_text(result); !others.empty()) text += others + '\n';
-  return text + closing_text(system, result, result.collisions, result.contacts, context);
+  return text + closing_text(system, result, result, context);
 }
 
 }  // namespace carom::cli

@@ -149,10 +149,7 @@ void ReturnSums::Sum::operator+=(const Sum& other) {
 bool ReturnsResult::add(const ReturnsResult& other) {
   if (!add_common(other)) return false;
   sums.merge(other.sums);
-  trajectories += other.trajectories;
-  add_fates(other);
-  collisions += other.collisions;
-  contacts += other.contacts;
+  add_ends(other);
   return true;
 }
 

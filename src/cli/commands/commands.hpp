@@ -24,6 +24,9 @@ int plot(const Options&);
 int animate(const Options&);
 int page(const Options&);
 
+/// Throws InputError for options of `escape` that another one gives a meaning, or takes it away.
+void check_escape_options(const Options&);
+
 /// The system that a command would compute, from its options.
 LoadedSystem system_of_command(const Options&);
 LoadedSystem system_of_run(const Options&);

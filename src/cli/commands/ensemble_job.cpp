@@ -137,14 +137,6 @@ bool is_plain_ensemble(const Options& options) {
   return is_ensemble(options.command) && options.splitting.empty();
 }
 
-void refuse_parts_of_others(const Options& options) {
-  if (is_plain_ensemble(options)) return;
-  const char* const only = "a plain ensemble, without --splitting";
-  if (!options.resume.empty())
-    throw InputError(place_of("--resume"), "this cannot be continued", only);
-  if (!options.shard.empty()) throw InputError(place_of("--shard"), "this cannot be divided", only);
-}
-
 CheckpointInterval checkpoint_interval(const std::string& text) {
   const char* const option = "--checkpoint";
   const std::string in_blocks = "blocks:";

@@ -31,7 +31,6 @@ LoadedSystem load_ensemble(const Options&);
 
 /// Does the command only add up trajectories? Then it can be divided, continued and shared.
 bool is_plain_ensemble(const Options&);
-void refuse_parts_of_others(const Options&);
 /// Checkpoints are so many seconds apart, or so many blocks.
 struct CheckpointInterval {
   double seconds = 10;

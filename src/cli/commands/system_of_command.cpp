@@ -1,4 +1,3 @@
-#include "analyses/escape/command_options.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/ensemble_job.hpp"
 #include "cli/common.hpp"

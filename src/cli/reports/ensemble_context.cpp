@@ -16,15 +16,14 @@ using files::Json;
 
 namespace {
 
-std::string work_text(const System& system, std::uint64_t collisions, std::uint64_t contacts,
-                      const EnsembleResult& result) {
-  std::string text = counted(collisions, "collision");
-  if (system.of_discs()) text += " and " + counted(contacts, "contact");
+std::string work_text(const System& system, const EndCounts& ends, const EnsembleResult& result) {
+  std::string text = counted(ends.collisions, "collision");
+  if (system.of_discs()) text += " and " + counted(ends.contacts, "contact");
   if (const std::string steps = steps_text(system, result.steps); !steps.empty())
     text += "\n" + steps + "\n";
   else
     text += " ";
-  const EventCounts events{collisions, contacts};
+  const EventCounts events{ends.collisions, ends.contacts};
   text += fmt::format("in {:.3g} s on {}{}: {}", result.seconds,
                       result.ranks > 1 ? fmt::format("{} processes of ", result.ranks) : "",
                       counted(static_cast<std::uint64_t>(result.threads), "thread"),
@@ -56,12 +55,11 @@ std::string rows_text(std::size_t all, const EnsembleContext& context) {
   return fmt::format("  of {} rows; --verbose prints all\n", grouped(all));
 }
 
-std::string closing_text(const System& system, const EnsembleResult& result,
-                         std::uint64_t collisions, std::uint64_t contacts,
+std::string closing_text(const System& system, const EnsembleResult& result, const EndCounts& ends,
                          const EnsembleContext& context, const LaneEffort& effort) {
   std::string text;
   if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
-  text += "\n" + work_text(system, collisions, contacts, result);
+  text += "\n" + work_text(system, ends, result);
   if (context.verbose)
     text += fmt::format("{}\n{}digest {:016x}\n", decisions_text(result.decisions),
                         lanes_text(why_one_by_one(system), result.lanes, effort), result.digest);

@@ -11,6 +11,7 @@
 #include "carom/lanes/lane_effort.hpp"
 #include "carom/results/ensemble_result.hpp"
 #include "carom/results/estimate.hpp"
+#include "carom/results/fate_counts.hpp"
 #include "carom/system/system.hpp"
 #include "files/json.hpp"
 
@@ -31,8 +32,8 @@ std::string head_text(const System&, std::uint64_t trajectories, double until, b
 std::string rows_text(std::size_t all, const EnsembleContext&);
 /// The last lines of the text: what the energy did, "1 000 collisions in 0.1 s on 2 threads …",
 /// what only --verbose prints (decisions, lanes, digest), what was checked, and the archive.
-std::string closing_text(const System&, const EnsembleResult&, std::uint64_t collisions,
-                         std::uint64_t contacts, const EnsembleContext&, const LaneEffort& = {});
+std::string closing_text(const System&, const EnsembleResult&, const EndCounts&,
+                         const EnsembleContext&, const LaneEffort& = {});
 /// Why quasi-random starts give no errors, as a phrase: so many of their replicates lack what is
 /// counted ("have no trajectory"). "" where none does.
 std::string no_errors(std::ptrdiff_t empty, const char* lack);

@@ -129,8 +129,11 @@ std::string table_text(const System& system, const TableMeasure& measured,
     else
       text += fmt::format("index {:.6g}", region.index);
     if (region.field) text += fmt::format(", B = {:.6g}", *region.field);
-    if (region.reflection != Region::Reflection::none)
-      text += region.reflection == Region::Reflection::s ? ", mirrors as s" : ", mirrors as p";
+    using enum Region::Reflection;
+    if (region.reflection != none)
+      text += region.reflection == s   ? ", mirrors as s"
+              : region.reflection == p ? ", mirrors as p"
+                                       : ", mirrors by a formula";
     text += "\n";
   }
   text += folded("  checked: that loops close, cross nowhere and lie apart, by exact signs") + "\n";

@@ -84,7 +84,8 @@ class FreeFlights {
   void put_into(Body& b, int region) const;
   RandomStream::Block words_of(int index, const Body& b, Purpose purpose) const;
   bool lets_pass(int index, const Body& b, int hole) const;
-  bool crosses(int index, Body& b, const PieceTable::Landing& landing);
+  enum class Passage { passed, mirrored, unknown };
+  Passage cross(int index, Body& b, const PieceTable::Landing& landing);
   /// In which region a point of the cell is, and the cell of that region's walls.
   struct InRegion {
     int region = -1;

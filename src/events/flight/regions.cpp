@@ -1,9 +1,12 @@
 // Flights from one region of a table into another, through a wall that both see
 // (docs/physics/regions.md).
+#include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "base/index.hpp"
+#include "carom/base/elementary.hpp"
 #include "carom/events/medium.hpp"
 #include "events/flight/free_flights.hpp"
 
@@ -66,17 +69,43 @@ void FreeFlights::predict_in_region(int index) {
   schedule(index, b);
 }
 
+namespace {
+
+/// The fraction of the hits that a region mirrors although they could pass, of the parts of the
+/// momenta across the edge, before and behind it, and of that along it. NaN: the formula gives
+/// none.
+double mirrored_fraction(const Region& region, double across, double beyond, double along,
+                         double here, double there) {
+  using enum Region::Reflection;
+  if (region.reflection == none) return 0.0;
+  if (region.reflection == typed) {
+    along = std::fabs(along);
+    const double fraction = region.fraction->value(std::array{
+        elementary::atan2(along, across), elementary::atan2(along, beyond), there / here});
+    return fraction >= 0.0 && fraction <= 1.0 ? fraction : std::numeric_limits<double>::quiet_NaN();
+  }
+  if (region.reflection == p) {
+    across /= here * here;
+    beyond /= there * there;
+  }
+  const double amplitude = (across - beyond) / (across + beyond);
+  return amplitude * amplitude;
+}
+
+}  // namespace
+
 /// The particle goes on behind the wall, if it can: then it is there, on the wall's other side.
-/// Momenta along the wall stay. False: it is mirrored.
-bool FreeFlights::crosses(int index, Body& b, const PieceTable::Landing& landing) {
+/// Momenta along the wall stay.
+FreeFlights::Passage FreeFlights::cross(int index, Body& b, const PieceTable::Landing& landing) {
   const Table& table = media_->table();
   const int to = media_->twin(first_wall(b) + landing.wall);
   const int beyond = region_of(table, to);
   const double here = momentum_in(table, b.outside, b.region),
                there = momentum_in(table, b.outside, beyond);
   const double next_speed = in_region(table, b.outside, beyond).speed;
+  const Region& region = table.regions[at(is_inner_side(table, to) ? beyond : b.region)];
   Vector after = landing.velocity;
-  if (here != there) {
+  if (here != there || region.fraction) {
     const Vector inward =
         (1.0 / std::sqrt(dot(landing.at.normal, landing.at.normal))) * landing.at.normal;
     const Vector along = geometry::right(inward);
@@ -84,20 +113,15 @@ bool FreeFlights::crosses(int index, Body& b, const PieceTable::Landing& landing
     const double tangential = unit * dot(along, landing.velocity);
     const double normal = -unit * dot(inward, landing.velocity);
     const double square = (there - tangential) * (there + tangential);
-    if (!(square > 0.0)) return false;  // total reflection
+    if (!(square > 0.0)) return Passage::mirrored;  // total reflection
     const double beyond_normal = std::sqrt(square);
-    const Region& region = table.regions[at(is_inner_side(table, to) ? beyond : b.region)];
-    if (region.reflection != Region::Reflection::none) {
-      double first = normal, second = beyond_normal;
-      if (region.reflection == Region::Reflection::p) {
-        first /= here * here;
-        second /= there * there;
-      }
-      const double amplitude = (first - second) / (first + second);
-      const RandomStream::Block words = words_of(index, b, Purpose::scattering);
-      if (RandomStream::uniform(words[0]) < amplitude * amplitude) return false;
-    }
-    after = (next_speed / there) * (tangential * along - beyond_normal * inward);
+    const double fraction =
+        mirrored_fraction(region, normal, beyond_normal, tangential, here, there);
+    if (std::isnan(fraction)) return Passage::unknown;
+    if (fraction > 0.0 &&
+        RandomStream::uniform(words_of(index, b, Purpose::scattering)[0]) < fraction)
+      return Passage::mirrored;
+    if (here != there) after = (next_speed / there) * (tangential * along - beyond_normal * inward);
   }
   const PieceTable& pieces = pieces_of(beyond);
   const int wall = to - media_->first_wall(beyond);
@@ -107,14 +131,14 @@ bool FreeFlights::crosses(int index, Body& b, const PieceTable::Landing& landing
   after = (1.0 + geometry::step_to_energy_shell(after, motion::energy_shell(next_speed))) * after;
   // Rounding may have turned a velocity along the wall back.
   if (pieces.inward(wall, curve, on.at.u, after, on.at.normal, counts_) != Sign::positive)
-    return false;
+    return Passage::mirrored;
   put_into(b, beyond);
   b.state.wall = to;
   b.state.u = on.at.u;
   b.state.position = on.at.point;
   b.state.velocity = after;
   pieces.begin_on_wall(b.flight, wall, curve, on.at.u, on.at.point, after);
-  return true;
+  return Passage::passed;
 }
 
 void FreeFlights::pass(int index, Time now, Observer& observer) {
@@ -127,7 +151,11 @@ void FreeFlights::pass(int index, Time now, Observer& observer) {
   if (edge && b.ahead.kind == Ahead::Kind::joint)
     return bodies_.end(index, Fate::singular, now, observer, "a corner of a region");
   const Vector before = landing.velocity;
-  if (!edge || !crosses(index, b, landing)) {
+  const Passage passage = edge ? cross(index, b, landing) : Passage::mirrored;
+  if (passage == Passage::unknown)
+    return bodies_.end(index, Fate::unresolved, now, observer,
+                       "the formula of `reflection` gives no number from 0 to 1 there");
+  if (passage == Passage::mirrored) {
     meet(index, b, now, observer, pieces, first, landing);
     return;
   }

@@ -144,7 +144,7 @@ const std::vector<KeyDescription>& key_table() {
        "refractive index inside, relative to the outside: the speed is divided by it"},
       {"table.region", "", "reflection", "string", "none",
        "hits that are mirrored although they could pass: none; or at random as a wave, s or p "
-       "(Fresnel)"},
+       "(Fresnel), or a formula of their fraction in the angles incidence and refraction and in n"},
 
       {"table.loop", "pieces", "start", "point", "",
        "where the first piece begins and the last must end"},

@@ -120,6 +120,15 @@ void read_pieces(TomlSection& section, LoopSpec& loop) {
   for (Value& piece : pieces.items) loop.pieces.push_back(read_piece(piece));
 }
 
+/// Of the first character of a text.
+Place inside_quotes(const Value& text) {
+  Place place = text.place;
+  if (place.column > 0) ++place.column;
+  return place;
+}
+
+WrittenFormula read_formula(const Value& value) { return {as_text(value), inside_quotes(value)}; }
+
 RegionSpec read_region(Value& value) {
   const bool has_edge = value.find("start") != nullptr || value.find("pieces") != nullptr;
   TomlSection section(value, "table.region", has_edge ? "pieces" : "obstacle");
@@ -137,12 +146,7 @@ RegionSpec read_region(Value& value) {
   spec.index = as_number(section.get("index"));
   spec.potential = as_number(section.get("potential"));
   if (const Value* field = section.find("B")) spec.field = as_number(*field);
-  const Value& reflection = section.get("reflection");
-  spec.reflection = as_text(reflection);
-  static const std::vector<std::string> words{"none", "s", "p"};
-  if (std::find(words.begin(), words.end(), spec.reflection) == words.end())
-    throw InputError(reflection.place, "unknown reflection '" + spec.reflection + "'",
-                     "one of " + listed(words), nearest_name(spec.reflection, words));
+  spec.reflection = read_formula(section.get("reflection"));
   return spec;
 }
 
@@ -172,15 +176,6 @@ LoopSpec read_loop(Value& value) {
   if (const Value* name = section.find("name")) loop.name = as_name(*name);
   return loop;
 }
-
-/// Of the first character of a text.
-Place inside_quotes(const Value& text) {
-  Place place = text.place;
-  if (place.column > 0) ++place.column;
-  return place;
-}
-
-WrittenFormula read_formula(const Value& value) { return {as_text(value), inside_quotes(value)}; }
 
 ObstacleSpec read_obstacle(Value& value, std::size_t index) {
   using Shape = ObstacleSpec::Shape;

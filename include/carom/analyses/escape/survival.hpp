@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "carom/analyses/escape/escape_times.hpp"
+#include "carom/results/binary_bins.hpp"
 #include "carom/results/fate_counts.hpp"
 #include "carom/results/interval.hpp"
 
@@ -15,6 +15,9 @@ namespace carom {
 namespace analyses {
 class SortedEnds;
 }
+
+/// Numbers of escapes in bins of time, 64 bins to a factor of two.
+using EscapeTimes = BinaryBins<6>;
 
 /// Numbers of hits n at which survival by hits is reported: 0, 1, 2, 3, 5, 10, 20, 30, 50, … <
 /// 2^63.
@@ -37,7 +40,7 @@ struct Replicate : GoneCounts {
 ///
 /// A trajectory is *gone* when it escaped or is unbounded. The cap on hits ends a trajectory while
 /// it is still there: it counts as a survivor at every time, and among those that survived.
-struct SurvivalCounts : FateCounts, GoneCounts {
+struct SurvivalCounts : EndCounts, GoneCounts {
   std::vector<double> times;  ///< report times, increasing
   EscapeTimes gone_at;        ///< gone_in in fine bins, at all times
   /// Hits of those that are gone, less one: a bin from a to b, both rounded up, counts those that
@@ -46,8 +49,6 @@ struct SurvivalCounts : FateCounts, GoneCounts {
   EscapeTimes gone_after;
   /// The fewest hits of one that is still there at the end, except for pinned ones.
   std::uint64_t fewest_hits_of_survivor = std::numeric_limits<std::uint64_t>::max();
-  std::uint64_t trajectories = 0, collisions = 0;
-  std::uint64_t contacts = 0;   ///< of hard discs, each pair once; set by the ensemble
   std::uint64_t most_hits = 0;  ///< of a single trajectory
   double energy_change = 0.0;   ///< the largest of a particle under forces; set by the ensemble
   /// Of quasi-random starts, which are not independent: the same counts of each replicate, whose

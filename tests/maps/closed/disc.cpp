@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "carom/maps/maps.hpp"
+#include "maps/closed/maps.hpp"
 
 namespace carom::maps {
 

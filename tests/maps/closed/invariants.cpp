@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "carom/maps/maps.hpp"
+#include "maps/closed/maps.hpp"
 
 namespace carom::maps {
 
