@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
 
+#include "base/parts.hpp"
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
 #include "carom/system/report_times.hpp"
@@ -16,12 +16,7 @@ std::vector<double> numbers_of(const std::string& text, const char* option, cons
                                const char* expected) {
   const Place place{"command line", 0, 0, option};
   const bool grid = text.find(':') != std::string::npos;
-  std::vector<std::string> parts;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find(grid ? ':' : ',', start), text.size());
-    parts.push_back(text.substr(start, end - start));
-    start = end + 1;
-  }
+  const std::vector<std::string> parts = base::parts_of(text, grid ? ':' : ',');
   const auto number = [&](const std::string& part) { return ExactNumber(part, place).to_double(); };
   std::vector<double> numbers;
   if (!grid) {

@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <atomic>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "analyses/compare/report.hpp"
+#include "base/parts.hpp"
 #include "carom/analyses/compare/archive.hpp"
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
@@ -23,16 +23,6 @@
 namespace carom::cli {
 
 namespace {
-
-std::vector<std::string> words_of(const std::string& text) {
-  std::vector<std::string> words;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find(',', start), text.size());
-    words.push_back(text.substr(start, end - start));
-    start = end + 1;
-  }
-  return words;
-}
 
 void check(const std::vector<double>& numbers, const char* option, double least, double below,
            const char* expected) {
@@ -48,7 +38,7 @@ ComparePlan compare_plan(const Options& options) {
   if (options.schemes == "all")
     for (const SchemeDescription& one : scheme_descriptions()) plan.schemes.emplace_back(one.name);
   else if (!options.schemes.empty())
-    plan.schemes = words_of(options.schemes);
+    plan.schemes = base::parts_of(options.schemes, ',');
   if (!options.steps.empty()) plan.steps = numbers_of(options.steps, "--steps", "steps");
   check(plan.steps, "--steps", 0.0, 1e300, "times > 0");
   if (!options.tolerances.empty())

@@ -1,5 +1,4 @@
-#include <algorithm>
-
+#include "base/parts.hpp"
 #include "files/toml/overrides.hpp"
 #include "files/toml/read.hpp"
 
@@ -11,13 +10,8 @@ constexpr std::uint64_t most_times = 100000;
 // "log:from:to:count", "lin:from:to:count" or "a,b,c", as --times takes it.
 Value parse_times(const Value& written) {
   const std::string& text = written.text;
-  std::vector<std::string> parts;
   const bool grid = text.find(':') != std::string::npos;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find(grid ? ':' : ',', start), text.size());
-    parts.push_back(text.substr(start, end - start));
-    start = end + 1;
-  }
+  const std::vector<std::string> parts = base::parts_of(text, grid ? ':' : ',');
   Value value;
   value.place = written.place;
   if (!grid) {

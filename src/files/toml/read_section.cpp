@@ -1,5 +1,4 @@
-#include <algorithm>
-
+#include "base/parts.hpp"
 #include "files/toml/read.hpp"
 #include "files/toml/table_names.hpp"
 
@@ -13,11 +12,8 @@ constexpr const char* forms =
 std::vector<double> numbers_of(const std::string& text, char between, std::size_t count,
                                const Place& place) {
   std::vector<double> numbers;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find(between, start), text.size());
-    numbers.push_back(ExactNumber(text.substr(start, end - start), place).to_double());
-    start = end + 1;
-  }
+  for (const std::string& part : base::parts_of(text, between))
+    numbers.push_back(ExactNumber(part, place).to_double());
   if (numbers.size() != count)
     throw InputError(place,
                      "'" + text + "' holds " + std::to_string(numbers.size()) + " numbers, not " +

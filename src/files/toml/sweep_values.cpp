@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "base/parts.hpp"
 #include "carom/base/elementary.hpp"
 #include "carom/base/exact_number.hpp"
 #include "carom/base/whole_number.hpp"
@@ -19,16 +20,6 @@ namespace carom::files {
 namespace {
 
 constexpr const char* notation = "KEY=lin:FROM:TO:COUNT, KEY=log:FROM:TO:COUNT or KEY=list:a,b,c";
-
-std::vector<std::string> parts_of(const std::string& text, char between) {
-  std::vector<std::string> parts;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find(between, start), text.size());
-    parts.push_back(text.substr(start, end - start));
-    start = end + 1;
-  }
-  return parts;
-}
 
 ExactNumber number_of(const std::string& text, const Place& place) {
   try {
@@ -123,10 +114,10 @@ SweptKey swept_key(const std::string& typed) {
   const Place place{command_line_file, 0, 0, "--sweep " + swept.key};
   const std::string asked = typed.substr(equals + 1), list = "list:";
   if (asked.starts_with(list)) {
-    swept.values = parts_of(asked.substr(list.size()), ',');
+    swept.values = base::parts_of(asked.substr(list.size()), ',');
     for (std::string& value : swept.values) value = number_of(value, place).text();
   } else {
-    const std::vector<std::string> parts = parts_of(asked, ':');
+    const std::vector<std::string> parts = base::parts_of(asked, ':');
     const std::array<const char*, 2> spacings{"lin", "log"};
     if (std::find(spacings.begin(), spacings.end(), parts[0]) == spacings.end())
       throw InputError(place, fmt::format("cannot read the values '{}'", asked), notation,
