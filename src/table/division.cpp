@@ -39,10 +39,13 @@ Region region_of(const RegionSpec& spec) {
                                                              : typed;
   if (region.reflection == p && region.potential != 0.0)
     throw InputError(spec.place, "a potential has no polarisation", "reflection = \"s\"");
-  if (region.reflection == typed)
-    region.fraction =
-        TypedExpression::parse(mirrored, std::vector<std::string>{"incidence", "refraction", "n"},
-                               {}, spec.reflection.place);
+  if (region.reflection != typed) return region;
+  const std::vector<std::string> variables{"incidence", "refraction", "n"};
+  const bool word = mirrored.find_first_of("0123456789.+-*/^()") == std::string::npos;
+  if (word && std::find(variables.begin(), variables.end(), mirrored) == variables.end())
+    throw InputError(spec.reflection.place, "unknown reflection '" + mirrored + "'",
+                     "none, s, p, or a formula in incidence, refraction and n");
+  region.fraction = TypedExpression::parse(mirrored, variables, {}, spec.reflection.place);
   return region;
 }
 
