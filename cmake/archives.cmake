@@ -1,6 +1,6 @@
-# Executables hold HDF5, GSL and SUNDIALS themselves where a system has their archives: at their start 18 libraries are
-# loaded then, not 53. Debian's HDF5 alone brings thirty, with which it can read files in the cloud; Carom never does
-# (no_cloud.c). All else (the Python module, users of the installed library) takes the shared libraries.
+# Executables hold GMP, MPFR, HDF5, GSL and SUNDIALS themselves where a system has their archives: at their start 8 libraries
+# are loaded then, not 53. Debian's HDF5 alone brings thirty, with which it can read files in the cloud; Carom never does
+# (no_cloud.c). FLINT, which has none in Debian, is opened late (late_flint.cmake). All else (the Python module, users of the installed library) takes the shared libraries.
 
 # Sets `result` to the archives beside shared libraries, or to nothing where one of them is missing.
 function(carom_archives result)
@@ -26,6 +26,13 @@ function(carom_held_by_programs name shared archives)
   endif()
 endfunction()
 
+carom_archives(gmp_archives ${GMPXX_LIBRARY} ${MPFR_LIBRARY} ${GMP_LIBRARY})
+carom_held_by_programs(carom_gmp "${GMPXX_LIBRARY};${MPFR_LIBRARY};${GMP_LIBRARY}" "${gmp_archives}")
+
+carom_archives(zlib_archives ${ZLIB_LIBRARIES})
+carom_held_by_programs(carom_zlib ZLIB::ZLIB "${zlib_archives}")
+target_include_directories(carom_zlib SYSTEM INTERFACE ${ZLIB_INCLUDE_DIRS})
+
 set(hdf5_libraries ${HDF5_C_LIBRARIES})
 list(FILTER hdf5_libraries INCLUDE REGEX "/libhdf5[^/]*$")
 carom_archives(hdf5_archives ${hdf5_libraries})
@@ -33,10 +40,19 @@ if(hdf5_archives)
   foreach(library sz aec)  # not everywhere of two parts
     find_library(CAROM_${library}_LIBRARY ${library})
     if(CAROM_${library}_LIBRARY)
-      list(APPEND hdf5_archives ${CAROM_${library}_LIBRARY})
+      carom_archives(archive ${CAROM_${library}_LIBRARY})
+      if(NOT archive)
+        set(archive ${CAROM_${library}_LIBRARY})
+      endif()
+      list(APPEND hdf5_archives ${archive})
     endif()
   endforeach()
-  list(APPEND hdf5_archives ${ZLIB_LIBRARIES} ${CMAKE_DL_LIBS} m)
+  if(zlib_archives)
+    list(APPEND hdf5_archives ${zlib_archives})
+  else()
+    list(APPEND hdf5_archives ${ZLIB_LIBRARIES})
+  endif()
+  list(APPEND hdf5_archives ${CMAKE_DL_LIBS} m)
   try_compile(CAROM_HDF5_HOLDS  # another system's HDF5 may ask for more
     SOURCES ${PROJECT_SOURCE_DIR}/cmake/no_cloud.c
     SOURCE_FROM_CONTENT holds.c "#include <hdf5.h>\nint main(void) { return H5open(); }\n"

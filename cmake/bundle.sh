@@ -15,6 +15,7 @@ if [[ -n $root ]]; then
   machine=aarch64
   tools=$machine-linux-gnu-
 fi
+late=$(sed -n 's/^CAROM_LATE_FLINT:[A-Z]*=//p' "$build/CMakeCache.txt")  # opened while a program runs
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$target"
@@ -27,10 +28,11 @@ loaded_with() {
 # A file of this system, or of the one that is built for.
 where_is() { if [[ -e $root$1 ]]; then echo "$root$1"; else echo "$1"; fi; }
 
-# Shared libraries of a program, one path a line; without the kernel's and the loader.
+# Shared libraries of a program, one path a line, those that it opens late too; without the kernel's and the loader.
 libraries_of() {
   local library
-  loaded_with "$1" | sed -n 's/.*=> \(\/[^ ]*\) .*/\1/p' | grep -v '/ld-linux' |
+  [[ -z $late ]] || echo "$late"
+  { loaded_with "$1"; [[ -z $late ]] || loaded_with "$late"; } | sed -n 's/.*=> \(\/[^ ]*\) .*/\1/p' | grep -v '/ld-linux' |
     while read -r library; do where_is "$library"; done
 }
 
@@ -101,7 +103,7 @@ LAUNCHER
   mkdir "$folder/man"
   cp "$build"/man/*.1 "$folder/man"
   [[ ! -d $source/build/docs/html ]] || cp -r "$source/build/docs/html" "$folder/docs"
-  licences "$folder/lib" libhdf5_serial.a libgsl.a libsundials_cvode.a  # archives.cmake
+  licences "$folder/lib" libhdf5_serial.a libgsl.a libsundials_cvode.a libz.a libaec.a  # archives.cmake
   tar -C "$work" --owner=0 --group=0 --sort=name -cf - "$name" | gzip -9n >"$target/$name.tar.gz"
 }
 

@@ -15,9 +15,19 @@ endif()
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_COMPONENTS_ALL program library)
 
+# The package of what is opened late, which nothing that is linked tells of.
+set(opened_late)
+if(CAROM_DEBIAN AND CAROM_LATE_FLINT)
+  file(REAL_PATH ${CAROM_LATE_FLINT} late_file)
+  cmake_path(GET late_file FILENAME late_file)
+  execute_process(COMMAND dpkg-query -S "*/${late_file}" OUTPUT_VARIABLE late_package COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX REPLACE ":.*" "" opened_late "${late_package}")
+endif()
+
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME carom)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "${opened_late}")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-carom, python3-matplotlib, libcarom-dev")
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Billiards with and without a magnetic field, potentials and interactions.
 Every decision between walls is exact; ensembles repeat bit for bit.
@@ -48,6 +58,9 @@ if(CAROM_BUILD_PYTHON)
   math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3-numpy, python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}~), \
 python3 (<< ${Python_VERSION_MAJOR}.${next_minor}~)")
+  if(opened_late)
+    string(APPEND CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS ", ${opened_late}")
+  endif()
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-matplotlib)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "carom, python3-h5py, python3-pandas, python3-tqdm")
   # Python's compiled files are made and removed with the package.

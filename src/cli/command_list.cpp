@@ -3,9 +3,9 @@
 
 namespace carom::cli {
 
-void define_commands(CLI::App& app, Options& o) {
+void define_commands(CLI::App& app, Options& o, const std::string* only) {
   constexpr const char *compute = "Compute", *look = "Look", *data = "Data and checks";
-  Command(app, o, compute, "escape", "Measure survival and escape rate of an ensemble",
+  Command(app, o, only, compute, "escape", "Measure survival and escape rate of an ensemble",
           "Examples:\n"
           "  carom escape magnetic-square\n"
           "  carom escape mushroom --trajectories 1e6 --times log:1:1000:31 --json\n"
@@ -35,7 +35,7 @@ void define_commands(CLI::App& app, Options& o) {
       .text("--kick", o.kick, "DELTA",
             "With --splitting: the largest kick (default: chosen by a first population)")
       .for_tests("--lookback", o.lookback);
-  Command(app, o, compute, "run", "Follow one trajectory and store every hit",
+  Command(app, o, only, compute, "run", "Follow one trajectory and store every hit",
           "Examples:\n"
           "  carom run mushroom --trajectory 7 --t-max 100\n"
           "  carom run circle --closed --position 1/10,0 --velocity 1,2 -o orbit.h5\n"
@@ -56,7 +56,7 @@ void define_commands(CLI::App& app, Options& o) {
       .text("--precision", o.precision, "double|certified", "Certified: every digit guaranteed")
       .text("--digits", o.digits, "D", "Guaranteed decimals of a certified run (default 20)")
       .text("--resume", o.resume, "FILE.h5", "Continue a stored run instead of SYSTEM");
-  Command(app, o, compute, "diffusion", "Measure the diffusion coefficient of an ensemble",
+  Command(app, o, only, compute, "diffusion", "Measure the diffusion coefficient of an ensemble",
           "Examples:\n"
           "  carom diffusion lorentz-triangular\n"
           "  carom diffusion lorentz-triangular --set field.B=0.5 --window 20:200 --json\n"
@@ -78,7 +78,7 @@ void define_commands(CLI::App& app, Options& o) {
             "Range of report times from which D and the exponent are computed")
       .free_paths();
   Command(
-      app, o, compute, "lyapunov", "Measure Lyapunov exponents and the chaotic share",
+      app, o, only, compute, "lyapunov", "Measure Lyapunov exponents and the chaotic share",
       "Examples:\n"
       "  carom lyapunov stadium --closed --trajectories 1e4\n"
       "  carom lyapunov mushroom --closed --t-max 1e4 --json\n"
@@ -101,7 +101,7 @@ void define_commands(CLI::App& app, Options& o) {
       .text("--window", o.window, "FROM:TO",
             "Times between which the growth is measured (default: the last four fifths of the run)")
       .spectrum();
-  Command(app, o, compute, "returns", "Measure return times to a wall",
+  Command(app, o, only, compute, "returns", "Measure return times to a wall",
           "Examples:\n"
           "  carom returns stadium --closed --on wall:bottom --t-max 1000\n"
           "  carom returns mushroom --closed --on wall:stem_bottom -o returns.h5\n"
@@ -118,7 +118,7 @@ void define_commands(CLI::App& app, Options& o) {
       .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
       .text("--on", o.on, "wall:NAME", "The wall (carom table lists them)")
       .parts();
-  Command(app, o, compute, "section", "Follow many orbits to where they cross a surface",
+  Command(app, o, only, compute, "section", "Follow many orbits to where they cross a surface",
           "Examples:\n"
           "  carom section ellipse-magnetic --orbits 20 --points 2000 -o section.h5\n"
           "  carom section stadium --closed --on line:0,-1:0,1 --direction positive\n"
@@ -139,7 +139,7 @@ void define_commands(CLI::App& app, Options& o) {
       .text("--points", o.points, "N", "Largest number of points of an orbit (default 1000)")
       .text("--orbits", o.orbits, "N",
             "Number of orbits (default: the listed starts, else at most 50)");
-  Command(app, o, compute, "relax", "Find equilibria and the oscillations about them",
+  Command(app, o, only, compute, "relax", "Find equilibria and the oscillations about them",
           "Examples:\n"
           "  carom relax wigner\n"
           "  carom relax soft-lorentz --saddles -o equilibria.png\n"
@@ -154,7 +154,7 @@ void define_commands(CLI::App& app, Options& o) {
       .threads()
       .verbose()
       .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)");
-  Command(app, o, compute, "compare", "Compare integrators: error against work",
+  Command(app, o, only, compute, "compare", "Compare integrators: error against work",
           "Examples:\n"
           "  carom compare henon-heiles\n"
           "  carom compare soft-lorentz --schemes velocity-verlet,ruth-3 --error 1e-4\n"
@@ -181,7 +181,7 @@ void define_commands(CLI::App& app, Options& o) {
       .verbose()
       .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)");
   Command(
-      app, o, compute, "orbit", "Find periodic orbits and their stability",
+      app, o, only, compute, "orbit", "Find periodic orbits and their stability",
       "Examples:\n"
       "  carom orbit three-disc --hits 8\n"
       "  carom orbit three-disc --hits 11 --zeta\n"
@@ -208,7 +208,7 @@ void define_commands(CLI::App& app, Options& o) {
       .flag("--certify", o.certify, "Prove that each orbit exists, and give its digits")
       .text("--digits", o.digits, "D", "With --certify: guaranteed decimals (default 20)")
       .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)");
-  Command(app, o, look, "table", "Check, measure and draw a table",
+  Command(app, o, only, look, "table", "Check, measure and draw a table",
           "Examples:\n"
           "  carom table stadium\n"
           "  carom table mushroom --set table.stem_width=0.6 -o mushroom.svg\n"
@@ -217,7 +217,7 @@ void define_commands(CLI::App& app, Options& o) {
       .settings()
       .verbose()
       .output("FILE.svg", "Draw the table");
-  Command(app, o, look, "plot", "Draw an archive or a system",
+  Command(app, o, only, look, "plot", "Draw an archive or a system",
           "Examples:\n"
           "  carom plot orbit.h5 -o orbit.pdf\n"
           "  carom plot mushroom -o mushroom.png\n"
@@ -233,7 +233,7 @@ void define_commands(CLI::App& app, Options& o) {
             "Which picture of a result (default: the first that it has)")
       .output("PICTURE", "A name ending in .png, .svg or .pdf");
   Command(
-      app, o, look, "animate", "Make a film of a run or a system",
+      app, o, only, look, "animate", "Make a film of a run or a system",
       "Examples:\n"
       "  carom animate lorentz-triangular -o lorentz.gif\n"
       "  carom animate wigner -o wigner.mp4\n"
@@ -248,7 +248,7 @@ void define_commands(CLI::App& app, Options& o) {
       .text("--fps", o.fps, "N", "Frames a second (default 20)")
       .text("--trail", o.trail, "N", "Frames for which a way stays visible (default 10)")
       .output("FILM", "A name ending in .gif or .mp4");
-  Command(app, o, look, "page", "Open the page that computes in a browser",
+  Command(app, o, only, look, "page", "Open the page that computes in a browser",
           "Examples:\n"
           "  carom page\n"
           "  carom page mushroom --set field.B=0.3     with that system\n"
@@ -257,7 +257,7 @@ void define_commands(CLI::App& app, Options& o) {
           "terminal the page is opened.")
       .system("SYSTEM", "Built-in name or TOML file to begin with")
       .settings();
-  Command(app, o, data, "merge", "Add the parts of an ensemble",
+  Command(app, o, only, data, "merge", "Add the parts of an ensemble",
           "Examples:\n"
           "  carom escape stadium --shard 1/2 -o a.h5\n"
           "  carom escape stadium --shard 2/2 -o b.h5\n"
@@ -267,19 +267,19 @@ void define_commands(CLI::App& app, Options& o) {
       .files("FILES", "The archive to be written (or -o FILE.h5), then the parts")
       .output("FILE.h5", "The archive to be written")
       .verbose();
-  Command(app, o, data, "systems", "List the built-in systems, or print one",
+  Command(app, o, only, data, "systems", "List the built-in systems, or print one",
           "Examples:\n"
           "  carom systems\n"
           "  carom systems mushroom > my-mushroom.toml\n"
           "  carom systems --json")
       .system("NAME", "Built-in system to print");
-  Command(app, o, data, "schemes", "List the integrators",
+  Command(app, o, only, data, "schemes", "List the integrators",
           "Examples:\n"
           "  carom schemes\n"
           "  carom schemes --json\n"
           "\n"
           "[integrator] scheme, or --set integrator.scheme=NAME, chooses one of them.");
-  Command(app, o, data, "validate", "Check the engine against published values",
+  Command(app, o, only, data, "validate", "Check the engine against published values",
           "Examples:\n"
           "  carom validate                  closed tables, published values\n"
           "  carom validate --scale 0.01     a quick look\n"

@@ -16,15 +16,20 @@ inline constexpr const char* times_help =
 // The options of one subcommand, all of them text: CLI11 itself would read -5 as 2^64 - 5.
 class Command {
  public:
-  Command(CLI::App& app, Options& options, const char* group, const char* name, const char* text,
-          const char* details)
-      : app_(app.add_subcommand(name, text)->group(group)), options_(options) {
+  /// `only`: the one command that gets its options; null: each does.
+  Command(CLI::App& app, Options& options, const std::string* only, const char* group,
+          const char* name, const char* text, const char* details)
+      : app_(app.add_subcommand(name, text)->group(group)),
+        options_(options),
+        named_alone_(only != nullptr && *only != name) {
+    if (named_alone_) return;
     app_->footer(details);
     flag("--json", options_.json, "Print one JSON object and nothing else");
     flag("--quiet", options_.quiet, "No progress on standard error");
   }
 
   Command& text(const char* name, std::string& value, const char* type, const char* help) {
+    if (named_alone_) return *this;
     // A value of no characters would be dropped without a word.
     app_->add_option(name, value, help)->type_name(type)->check([name](const std::string& typed) {
       return typed.empty() ? std::string(name) + " needs a value" : std::string();
@@ -33,15 +38,18 @@ class Command {
   }
   /// An option of tests, which no help shows.
   Command& for_tests(const char* name, std::string& value) {
+    if (named_alone_) return *this;
     app_->add_option(name, value)->group("");
     return *this;
   }
   Command& flag(const char* name, bool& value, const char* help) {
+    if (named_alone_) return *this;
     app_->add_flag(name, value, help)->disable_flag_override();
     return *this;
   }
   /// A flag that sets a key of the system.
   Command& sets(const char* name, const char* key, const char* value, const char* help) {
+    if (named_alone_) return *this;
     SystemOverrides& o = options_.overrides;
     app_->add_flag_callback(
             name, [&o, key, value] { o.set.emplace_back(key, value); }, help)
@@ -49,14 +57,17 @@ class Command {
     return *this;
   }
   Command& system(const char* name, const char* help) {
+    if (named_alone_) return *this;
     app_->add_option(name, options_.system, help);
     return *this;
   }
   Command& files(const char* name, const char* help) {
+    if (named_alone_) return *this;
     app_->add_option(name, options_.files, help);
     return *this;
   }
   Command& settings() {
+    if (named_alone_) return *this;
     SystemOverrides& o = options_.overrides;
     app_->add_option_function<std::vector<std::string>>(
             "--set",
@@ -88,6 +99,7 @@ class Command {
   }
   /// A command that can be repeated for values of a key.
   Command& sweep() {
+    if (named_alone_) return *this;
     app_->add_option("--sweep", options_.sweep,
                      "Values of a key of the system, one row for each: KEY=lin:FROM:TO:COUNT, "
                      "log:FROM:TO:COUNT or list:a,b,c; twice: a plane")
@@ -138,9 +150,10 @@ class Command {
  private:
   CLI::App* app_;
   Options& options_;
+  bool named_alone_;
 };
 
-/// Each command with its options, which go to `options`.
-void define_commands(CLI::App&, Options& options);
+/// Each command with its options, which go to `options`; of the others than `only`, the names.
+void define_commands(CLI::App&, Options& options, const std::string* only = nullptr);
 
 }  // namespace carom::cli

@@ -92,9 +92,9 @@ int main(int argc, char** argv) {
     const bool silent = rank_by_environment() > 0;
     if (silent && !keep_silent()) return bad_input;
     std::signal(SIGPIPE, SIG_IGN);  // a closed pipe shows where it is written to
-    carom::prepare_archives();
     Parsed parsed = parse(argc, argv);
     if (parsed.exit) return *parsed.exit;
+    carom::prepare_archives();
     const Options& options = parsed.options;
     follow_links(parsed.options);
     if (silent && !is_plain_ensemble(options)) return done;

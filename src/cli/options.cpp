@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -92,12 +93,12 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
-void define(CLI::App& app, Options& o, bool& version_wanted) {
+void define(CLI::App& app, Options& o, bool& version_wanted, const std::string* only = nullptr) {
   app.formatter(std::make_shared<Help>());  // of the commands, too
   app.footer(examples);
   app.add_flag("--version", version_wanted, "Print the version");
   app.require_subcommand(0, 1);
-  define_commands(app, o);
+  define_commands(app, o, only);
 }
 
 CommandRow row_of(const CLI::App& app) {
@@ -156,19 +157,19 @@ void set_options(Options& options, const std::string& command,
   }
 }
 
-Parsed parse(int argc, char** argv) {
+namespace {
+
+// `only`: the one command whose options are made, which most of a short run's time went into; null:
+// all. Nothing where they are not enough: for a fault, whose message may name other commands, or
+// where another command is meant.
+std::optional<Parsed> parse(int argc, char** argv, const std::string* only) {
   Parsed parsed;
   Options& options = parsed.options;
-  if (argc == 3 && std::string(argv[1]) == "--complete") {
-    std::fputs(completions(argv[2]).c_str(), stdout);
-    parsed.exit = done;
-    return parsed;
-  }
   for (int i = 0; i < argc; ++i) options.line += (i ? " " : "") + quoted(i ? argv[i] : "carom");
 
   CLI::App app(introduction, "carom");
   bool version_wanted = false;
-  define(app, options, version_wanted);
+  define(app, options, version_wanted, only);
 
   // carom help COMMAND is carom COMMAND --help.
   std::vector<char*> words(argv, argv + argc);
@@ -189,9 +190,18 @@ Parsed parse(int argc, char** argv) {
     parsed.exit = usage;
   };
   try {
-    app.parse(argc, argv);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+      throw;
+    } catch (const CLI::ParseError&) {
+      if (only != nullptr) return std::nullopt;
+      throw;
+    }
   } catch (const CLI::CallForHelp&) {
     const auto chosen = app.get_subcommands();
+    if (only != nullptr && !chosen.empty() && chosen.front()->get_name() != *only)
+      return std::nullopt;
     std::fputs((chosen.empty() ? app.help() : chosen.front()->help("carom")).c_str(), stdout);
     parsed.exit = done;
     return parsed;
@@ -239,6 +249,21 @@ Parsed parse(int argc, char** argv) {
            options.splitting.empty())
     complain("--checkpoint writes to an archive: add -o FILE.h5");
   return parsed;
+}
+
+}  // namespace
+
+Parsed parse(int argc, char** argv) {
+  if (argc == 3 && std::string(argv[1]) == "--complete") {
+    std::fputs(completions(argv[2]).c_str(), stdout);
+    Parsed parsed;
+    parsed.exit = done;
+    return parsed;
+  }
+  const bool help = argc > 2 && std::string(argv[1]) == "help";
+  const std::string typed = argc > 1 ? argv[help ? 2 : 1] : "";
+  std::optional<Parsed> parsed = parse(argc, argv, &typed);
+  return parsed ? std::move(*parsed) : *parse(argc, argv, nullptr);
 }
 
 }  // namespace carom::cli

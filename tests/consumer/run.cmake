@@ -10,6 +10,7 @@ endfunction()
 
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${scratch}/prefix)
 run(${scratch}/prefix/bin/carom --version)
+run(${scratch}/prefix/bin/carom run circle --precision certified --digits 30 --quiet)
 if(EXISTS ${scratch}/prefix/include/carom/maps)
   message(FATAL_ERROR "the maps are installed")
 endif()

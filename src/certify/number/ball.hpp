@@ -12,10 +12,17 @@
 
 namespace carom::certify {
 
+/// Set by programs that open FLINT late (late/open.cpp). Throws std::system_error where it is not
+/// there.
+inline void (*open_flint)() = nullptr;
+
 /// Bits that operations round to, in this thread, while a Precision lives.
 class Precision {
  public:
-  explicit Precision(slong bits) : before_(bits_) { bits_ = bits; }
+  explicit Precision(slong bits) : before_(bits_) {
+    if (open_flint != nullptr) open_flint();
+    bits_ = bits;
+  }
   ~Precision() { bits_ = before_; }
   Precision(const Precision&) = delete;
   Precision& operator=(const Precision&) = delete;
