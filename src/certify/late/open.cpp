@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <string>
 #include <system_error>
 
@@ -23,8 +24,14 @@ void carom_open_flint_or_end() noexcept;
 
 namespace {
 
+void nothing() {}
+
+// Numbers that nothing was written into are ended on the way out.
 [[noreturn]] void refuse() {
   const char* reason = ::dlerror();
+  for (CaromFlintCall* call = carom_flint_calls; call != carom_flint_calls_end; ++call)
+    if (std::strstr(call->name, "_clear") != nullptr)
+      call->found = reinterpret_cast<void*>(nothing);
   throw std::system_error(ELIBACC, std::generic_category(),
                           "certified runs, and how far others can be trusted, need FLINT (" +
                               std::string(reason != nullptr ? reason : CAROM_FLINT) + ")");
@@ -50,7 +57,7 @@ void open() { [[maybe_unused]] static const bool once = find_calls(); }
 
 }  // namespace
 
-// Where no Precision has opened it; a function that ends whole numbers cannot throw.
+// Where no Precision has opened it, and a function in C cannot throw.
 void carom_open_flint_or_end() noexcept {
   try {
     open();
