@@ -39,6 +39,7 @@ use_carom() {
   inside carom escape stadium </dev/null
   inside carom "${small[@]}" --json </dev/null | grep -o '"digest": *"[0-9a-f]*"' | cut -d '"' -f 4 >"$folder/carom/digest" ||
     die "no digest"
+  inside carom run circle --precision certified --digits 30 </dev/null >/dev/null || die "no certified run: it needs FLINT"
   inside bash -c 'gunzip -c /usr/share/man/man1/carom-escape.1.gz | grep -q "^.SH EXAMPLES"' || die "no man page"
   inside bash -c '. /usr/share/bash-completion/completions/carom && complete -p carom' >/dev/null || die "no completion"
   inside cp -r /usr/share/doc/carom/examples /carom/examples
@@ -51,6 +52,7 @@ result = carom.escape("stadium", trajectories=10_000)
 print(result, result.digest, sep="\n")
 PYTHON
   inside python3 three_lines.py </dev/null | tee "$folder/carom/python_result"
+  inside python3 -c 'import carom; carom.run("circle", precision="certified", digits=30)' || die "no certified run in Python"
   grep -qxF "$(cat "$folder/carom/digest")" "$folder/carom/python_result" || die "Python's digest is not that of the program"
 }
 
