@@ -14,9 +14,9 @@ double fused_at_ends(double a, double b, double c);
 [[gnu::always_inline]] inline double fused_by_sums(double a, double b, double c) {
   const double p = a * b;
   const auto size = [](double x) { return __builtin_fabs(x); };
+  const double most = size(a) + size(b) + size(c), product = size(p);
   // Products of halves, and what they leave, are doubles then.
-  if (__builtin_expect(!(size(a) + size(b) + size(c) < 0x1p500) | !(size(p) > 0x1p-900), 0))
-    return fused_at_ends(a, b, c);
+  if (__builtin_expect(!(most < 0x1p500) | !(product > 0x1p-900), 0)) return fused_at_ends(a, b, c);
   constexpr double split = 134217729.0;  // 2^27 + 1
   const double ca = split * a, cb = split * b;
   const double a1 = ca - (ca - a), b1 = cb - (cb - b), a2 = a - a1, b2 = b - b1;
