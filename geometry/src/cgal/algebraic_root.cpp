@@ -175,7 +175,7 @@ AlgebraicRoot quotient_at(const Polynomial& p, const Polynomial& q, const Algebr
     IntegerPolynomial f = x.data().value.polynomial();
     const IntegerPolynomial common = CommonFactor{}(f, integer_polynomial(q));
     if (CGAL::degree(common) > 0) f = CGAL::integral_division_up_to_constant_factor(f, common);
-    for (int i = 0; i <= f.degree(); ++i) right.emplace_back(f[i]);
+    for (auto c = f.begin(); c != f.end(); ++c) right.emplace_back(*c);
     candidates =
         real_roots(CGAL::resultant(Two(left.begin(), left.end()), Two(right.begin(), right.end())));
   }
