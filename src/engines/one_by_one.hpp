@@ -2,10 +2,12 @@
 // other.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "carom/engines/engine.hpp"
 #include "carom/events/world.hpp"
-#include "engines/group_tangent.hpp"
-#include "motion/free_tangent.hpp"
+#include "engines/followed_deviations.hpp"
 
 namespace carom::engines {
 
@@ -30,19 +32,13 @@ class OneByOne : public Engine, private Observer {
   }
   void crossing(int particle, Time, const State&, int direction) override;
   void end(const EndEvent&) override;
-  void make_groups();
-  void begin_deviations();
   /// The lengths of deviations at times before `time`, or also at it.
   void stretch(std::size_t particle, const Time& time, bool also_at);
   void carry_over_hit(std::size_t particle, const State&);
-  void put_back(GroupTangent&, const Time&);
 
-  /// Deviations of a particle: across its orbit where it is free and alone; else those of its
-  /// group, which are reported with the group's first member.
-  struct Followed {
-    motion::FreeTangent tangent;
-    GroupTangent* group = nullptr;
-    std::size_t marked = 0;  ///< times that were reported
+  /// What the listener was told of a particle or a group.
+  struct Told {
+    std::size_t marks = 0;  ///< times that were reported
     std::uint64_t hits = 0;
   };
   const System& system_;
@@ -52,11 +48,9 @@ class OneByOne : public Engine, private Observer {
   Trajectory trajectory_;
   TrajectoryEnd end_;
   std::size_t samples_ = 0;  ///< times of this trajectory that are sampled
-  motion::TangentWalls walls_;
-  std::vector<std::unique_ptr<GroupTangent>> groups_;
-  std::vector<Followed> followed_;  ///< one a particle, if deviations are followed
+  std::optional<FollowedDeviations> deviations_;
+  std::vector<Told> told_;
   const std::function<bool()>* stopped_ = nullptr;
-  bool in_parts_ = false;  ///< a step of this trajectory was halved: deviations take its steps
 };
 
 }  // namespace carom::engines

@@ -11,25 +11,20 @@
 #include "carom/base/stopwatch.hpp"
 #include "carom/engines/trajectories.hpp"
 #include "carom/geometry/curve_frame.hpp"
-#include "carom/integrators/scheme.hpp"
 #include "carom/starts/injection.hpp"
 #include "carom/starts/sampler.hpp"
 #include "carom/starts/start_measure.hpp"
+#include "engines/followed_deviations.hpp"
 #include "results/describe_ends.hpp"
 
 namespace carom {
 
 using namespace analyses;
+using engines::refuse_no_deviations;
+using engines::unit_length_of;
 using results::is_integrated;
 
 namespace {
-
-// Lengths and rates of deviations are compared by the time that a particle needs for it.
-double unit_length_of(const Table& table) {
-  const TableMeasure size = measure(table);
-  const double length = std::isfinite(size.mean_flight) ? size.mean_flight : size.perimeter;
-  return length > 0.0 ? length : 1.0;
-}
 
 GrowthSums plan_of(const System& system) {
   return {growth_window(system),
@@ -57,11 +52,7 @@ std::vector<double> times_of_convergence(const System& system, const GrowthSums&
 }
 
 void refuse_no_exponents(const System& system) {
-  if (is_integrated(system) && is_adaptive(system.dynamics.integrator.scheme))
-    throw InputError(Place{"", 0, 0, "integrator.scheme"},
-                     "deviations are not followed by adaptive schemes", "a scheme of fixed steps");
-  refuse_all_but_mirrors(*system.table, "deviations");
-  refuse_injections(system, "an ensemble whose deviations grow");
+  refuse_no_deviations(system);
   if (system.run.spectrum) refuse_quasi_random(system, "a spectrum");
   if (system.run.spectrum && system.particles.size() > 1 && !act_on_each_other(system))
     throw InputError(Place{"", 0, 0, "run.spectrum"},
