@@ -206,7 +206,7 @@ def main():
         if page.parent.name == "tutorials":
             (stage.folder / "guide/tutorials").mkdir(parents=True, exist_ok=True)
             made = notebooks.write(page, stage.folder / "guide/tutorials")
-            figure = live.figure(page.stem, web)
+            figure = live.figure(page, web, module)
             ending = f"\nThis page [as a Jupyter notebook]({made.name}).\n"
         stage.page(page, ending, figure)
     pictures(root, build, module, stage)

@@ -55,6 +55,12 @@ class Site(unittest.TestCase):
         if (site / "carom.html").exists():
             html = opened((site / "guide/tutorials/orbit.html").as_uri(), "guide-tutorials-orbit")
             self.assertIn('src="../../carom.html#system=mushroom', html)
+            # The system whose table is a drawing.
+            html = opened((site / "guide/tutorials/drawing.html").as_uri(), "guide-tutorials-drawing")
+            shown = re.search(r'src="../../(carom.html#toml=[^"]*)"', html)[1].replace("&amp;", "&")
+            html = opened(f"{site.as_uri()}/{shown}", "carom-drawing")
+            self.assertIn("An egg with a pillar", html)
+            self.assertIn('shape = "path"', text_of(html))
 
     def test_the_search_finds_a_page(self):
         html = opened((site / "search.html").as_uri() + "?q=mushroom", "search")
