@@ -9,7 +9,8 @@ interface Module {
   _carom_call(text: number): number;
   _carom_free(text: number): void;
   _carom_step(orbit: number, rows: number, out: number): number;
-  _carom_places(orbits: number, count: number, t: number, out: number): number;
+  _carom_places(orbits: number, count: number, t: number, out: number): void;
+  _carom_rates(orbits: number, count: number, t: number, out: number): void;
 }
 
 /** Numbers of a row of a hit: t, x, y, vx, vy, wall, s, v_parallel, curvature of the flight that led there. */
@@ -54,11 +55,21 @@ export class Engine {
 
   /** x, y, vx, vy of each orbit at time t. The view holds until the next call. */
   places(orbits: Uint32Array, t: number): Float64Array {
-    const out = this.room(orbits.length * 36 + 8);
-    const ids = out + orbits.length * 32;
+    return this.ofEach(this.module._carom_places, 4, orbits, t);
+  }
+
+  /** How fast the deviations of each orbit have grown until t. The view holds until the next call. */
+  rates(orbits: Uint32Array, t: number): Float64Array {
+    return this.ofEach(this.module._carom_rates, 1, orbits, t);
+  }
+
+  private ofEach(ask: (ids: number, count: number, t: number, out: number) => void, numbers: number, orbits: Uint32Array, t: number): Float64Array {
+    const count = orbits.length;
+    const out = this.room(count * (8 * numbers + 4) + 8);
+    const ids = out + count * 8 * numbers;
     this.module.HEAPU8.set(new Uint8Array(orbits.buffer, orbits.byteOffset, orbits.byteLength), ids);
-    this.module._carom_places(ids, orbits.length, t, out);
-    return this.module.HEAPF64.subarray(out / 8, out / 8 + orbits.length * 4);
+    ask(ids, count, t, out);
+    return this.module.HEAPF64.subarray(out / 8, out / 8 + count * numbers);
   }
 
   private room(bytes: number): number {

@@ -4,6 +4,7 @@ import { ink } from "./palette";
 import { FRAME_ROW, type System } from "./protocol";
 import type { Section } from "./section";
 import type { Table } from "./table";
+import type { Tint } from "./tint";
 import type { Trace } from "./trace";
 
 const MOST = 20000; // flights and points of a drawing
@@ -21,7 +22,7 @@ export function csv(trace: Trace, system: System): Blob {
   return new Blob([lines.join("\n"), "\n"], { type: "text/csv" });
 }
 
-export function svg(trace: Trace, system: System): Blob {
+export function svg(trace: Trace, system: System, tint: Tint): Blob {
   const colours = ink();
   const size = 480;
   const [x0, y0, x1, y1] = system.box;
@@ -46,11 +47,11 @@ export function svg(trace: Trace, system: System): Blob {
           const r = (a.r * k).toFixed(2);
           d += `A${r} ${r} 0 ${Math.abs(a.turn) > Math.PI ? 1 : 0} ${a.turn > 0 ? 0 : 1} ${px(row[1])} ${py(row[2])}`;
         }
-        push(flights, slot % colours.orbits.length, d);
+        push(flights, tint.index(slot), d);
       }
       const sx = (size + 40 + (row[6] / system.length) * (size - 60)).toFixed(2);
       const sy = (10 + (1 - row[7] / Math.hypot(row[3], row[4])) * (size - 20) / 2).toFixed(2);
-      push(dots, slot % colours.orbits.length, `M${sx} ${sy}h.01`);
+      push(dots, tint.index(slot), `M${sx} ${sy}h.01`);
     }
   }
   const walls = system.walls.filter((wall) => !wall.hole && wall.points.length > 0).map((wall) => {
@@ -59,7 +60,7 @@ export function svg(trace: Trace, system: System): Blob {
     return `<path${dashes} d="M${points.join("L")}${wall.closed ? "Z" : ""}"/>`;
   });
   const paths = (map: Map<number, string[]>, extra: string) =>
-    [...map].map(([c, d]) => `<path stroke="${colours.orbits[c]}" ${extra} d="${d.join("")}"/>`).join("\n");
+    [...map].map(([c, d]) => `<path stroke="${tint.inks[c]}" ${extra} d="${d.join("")}"/>`).join("\n");
   const text = `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${2 * size} ${size}" fill="none" stroke-linecap="round">
 <title>${escaped(system.title)}</title>
 <rect width="100%" height="100%" fill="${colours.paper}"/>

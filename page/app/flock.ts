@@ -6,6 +6,7 @@ import { FRAME_ROW, TRUSTED, type Begun, type Frame, type Request, type Trust } 
 const CHUNK = 16; // hits read at a time
 const MOST_HITS = 20000; // in a frame
 const MOST_TRAIL = 3000; // places of paths in a frame
+const RATED = 250; // milliseconds from rates to rates
 
 interface Orbit {
   slot: number;
@@ -30,6 +31,8 @@ export class Flock {
   private t = 0;
   private forces = false;
   private walls = true;
+  private rates = false;
+  private ratedAt = 0;
   private step = Infinity; // of time, that is known to fit into the budget
   private curvature = 0; // of a flight that has not met a wall yet: that of the flights before
 
@@ -45,12 +48,14 @@ export class Flock {
     }
     this.forces = ask.forces;
     this.walls = ask.walls;
+    this.rates = ask.rates;
+    this.ratedAt = 0;
     const refused: string[] = [];
     const begun: Orbit[] = [];
     for (const start of ask.starts) {
       try {
         const trust = ask.starts.length <= TRUSTED;
-        const { orbit, particles = 1 } = this.engine.call({ do: "orbit", system: ask.system, start: { ...start, trust } });
+        const { orbit, particles = 1 } = this.engine.call({ do: "orbit", system: ask.system, start: { ...start, trust, rates: this.rates } });
         for (let p = 0; p < particles; ++p) {
           const slot = ask.slots[begun.length];
           begun.push({ slot, id: orbit + p, rows: new Float64Array(0), at: 0, born: this.t, t: 0, x: 0, y: 0, vx: 0, vy: 0 });
@@ -77,11 +82,12 @@ export class Flock {
     const hits: number[] = [];
     const trail: number[] = [];
     const ended: Frame["ended"] = [];
+    const rates: number[] = [];
     while (this.t < t && hits.length < MOST_HITS * FRAME_ROW && trail.length < 3 * MOST_TRAIL) {
       if (performance.now() - begin > budget) break;
       const step = Math.min(t - this.t, this.step, this.forces ? this.grain : Infinity);
       const before = performance.now();
-      this.fly(this.t + step, hits, ended);
+      this.fly(this.t + step, hits, ended, rates);
       if (this.forces && this.orbits.length <= 64) this.follow(trail);
       const cost = performance.now() - before;
       if (cost > budget / 3) this.step = step / 2;
@@ -96,8 +102,14 @@ export class Flock {
     } else {
       this.orbits.forEach((orbit, i) => dots.set(this.place(orbit, this.t - orbit.born), 2 * i));
     }
+    if (this.rates && begin - this.ratedAt > RATED) {
+      this.ratedAt = begin;
+      for (const [orbits, age] of this.ages()) {
+        this.engine.rates(ids(orbits), age).forEach((rate, i) => rates.push(orbits[i].slot, rate));
+      }
+    }
     return {
-      t: this.t, dots, slots, hits: Float64Array.from(hits), trail: Float64Array.from(trail), ended, flying,
+      t: this.t, dots, slots, hits: Float64Array.from(hits), trail: Float64Array.from(trail), rates: Float64Array.from(rates), ended, flying,
       cost: performance.now() - begin,
     };
   }
@@ -123,7 +135,7 @@ export class Flock {
     return found;
   }
 
-  private fly(t: number, hits: number[], ended: Frame["ended"]): void {
+  private fly(t: number, hits: number[], ended: Frame["ended"], rates: number[]): void {
     this.t = t;
     if (!this.walls) return;
     const gone = new Set<Orbit>();
@@ -144,6 +156,7 @@ export class Flock {
         const [x, y] = this.forces ? this.places([orbit], orbit.end.t) : this.place(orbit, orbit.end.t);
         const { why, hole, t: end } = orbit.end;
         ended.push({ slot: orbit.slot, why: hole ? `${why} through ${hole}` : why, t: end, x, y });
+        if (this.rates) rates.push(orbit.slot, this.engine.rates(ids([orbit]), end)[0]);
         gone.add(orbit);
       }
     }
@@ -178,18 +191,27 @@ export class Flock {
   }
 
   private places(orbits: Orbit[], t: number): Float64Array {
-    return this.engine.places(Uint32Array.from(orbits, (orbit) => orbit.id), t).slice();
+    return this.engine.places(ids(orbits), t).slice();
   }
 
   /** States of all orbits now; those that were born later are at an earlier time of their own. */
   private now(): Float64Array {
     const states = new Float64Array(4 * this.orbits.length);
+    let from = 0;
+    for (const [orbits, age] of this.ages()) {
+      states.set(this.places(orbits, age), from);
+      from += 4 * orbits.length;
+    }
+    return states;
+  }
+
+  /** Orbits that follow each other and were born together, and their own time now. */
+  private *ages(): Generator<[Orbit[], number]> {
     for (let from = 0, to = 0; from < this.orbits.length; from = to) {
       const { born } = this.orbits[from];
       while (to < this.orbits.length && this.orbits[to].born === born) ++to;
-      states.set(this.places(this.orbits.slice(from, to), this.t - born), 4 * from);
+      yield [this.orbits.slice(from, to), this.t - born];
     }
-    return states;
   }
 
   private follow(trail: number[]): void {
@@ -200,4 +222,8 @@ export class Flock {
   private forget(orbits: Iterable<Orbit>): void {
     for (const orbit of orbits) this.engine.call({ do: "forget", orbit: orbit.id });
   }
+}
+
+function ids(orbits: Orbit[]): Uint32Array {
+  return Uint32Array.from(orbits, (orbit) => orbit.id);
 }

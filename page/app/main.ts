@@ -12,12 +12,15 @@ import { Section } from "./section";
 import { fragment, read, type Shared } from "./share";
 import { rounded, Sliders } from "./sliders";
 import { Table } from "./table";
+import { Tint } from "./tint";
 import { Trace } from "./trace";
-import { byId, copy, count, save } from "./words";
+import { byId, copy, count, make, plain, save } from "./words";
 
 const FIRST = "stadium";
 
 const trace = new Trace();
+const tint = new Tint();
+let byExponent = false; // is what the reader asks for; a system may refuse it
 const client = new Client();
 let helper: Client | undefined; // for pictures of systems and for handles
 let system: System | undefined;
@@ -25,15 +28,15 @@ let builtin: string | undefined; // the one that was picked last
 let original = ""; // its text
 let name: string | undefined; // its name while the text is unchanged
 
-const table = new Table(byId("table"), trace, {
+const table = new Table(byId("table"), trace, tint, {
   start: (position, [x, y]) => start({ position, velocity: motion.velocity(x, y) }),
   pull: (handle, x, y) => {
     const span = Math.abs(handle.value) || 1;
     editor.setValue(handle.key.line, handle.key.key, rounded(pulled(handle, x, y), span));
   },
 });
-const section = new Section(byId("section"), trace, (s, v) => start({ s, v }));
-const motion = new Motion(client, trace, table, section, { say, state, paced });
+const section = new Section(byId("section"), trace, tint, (s, v) => start({ s, v }));
+const motion = new Motion(client, trace, table, section, tint, { say, state, paced, tinted });
 const numbers = new Numbers(byId("numbers"));
 const editor = new Editor(byId("editor"), () => edited(120));
 const sliders = new Sliders(byId("sliders"), (key, value) => editor.setValue(key.line, key.key, value));
@@ -52,6 +55,30 @@ function paced(): void {
   motion.hitsPerSecond = 10 ** Number(speed.value);
   byId("speed-text").textContent = motion.speedText;
   speed.setAttribute("aria-valuetext", motion.speedText);
+}
+
+/** The choice of colours, and their scale or why there is none. */
+function tinted(): void {
+  const choice = byId<HTMLSelectElement>("colour");
+  const refused = system?.no_rates ?? "";
+  choice.value = tint.by;
+  choice.disabled = refused !== "";
+  const place = byId("scale");
+  if (tint.by === "exponent") {
+    const ramp = make("span", { class: "ramp" });
+    ramp.style.background = `linear-gradient(to right, ${tint.inks.join()})`;
+    place.replaceChildren("0", ramp, `${plain(tint.top)} / time`);
+    place.title = "The rate at which a deviation from the orbit has grown since its start: ln of its length, over the time";
+  } else {
+    place.textContent = refused && `no exponents: ${refused}`;
+    place.title = "";
+  }
+}
+
+function colourBy(): void {
+  tint.by = byExponent && !system?.no_rates ? "exponent" : "orbit";
+  tint.recolour();
+  tinted();
 }
 
 function helping(): Client {
@@ -111,6 +138,7 @@ function shown(loaded: System, fresh: boolean): void {
   sliders.show(loaded.keys.filter((key) => key.section !== "run"), fresh);
   document.querySelector("main")!.classList.toggle("no-walls", loaded.walls.length === 0);
   trace.clear();
+  colourBy();
   numbers.stop();
   table.show(loaded);
   section.show(loaded);
@@ -140,7 +168,7 @@ function settle(text: string, wait: number): void {
 }
 
 async function shared(): Promise<string> {
-  const held: Shared = { ...(name ? { name } : { toml: editor.text }), start: motion.from, particles: motion.particles };
+  const held: Shared = { ...(name ? { name } : { toml: editor.text }), start: motion.from, particles: motion.particles, byExponent };
   return fragment(held);
 }
 
@@ -169,6 +197,7 @@ async function open(): Promise<void> {
     damage = new Error("The link is damaged; this is the first system.");
   }
   if (held.particles) setParticles(held.particles);
+  byExponent = held.byExponent ?? false;
   if (held.toml !== undefined) {
     editor.text = held.toml;
     clearTimeout(timer);
@@ -215,6 +244,11 @@ function controls(): void {
     particles.setAttribute("aria-valuetext", String(motion.particles));
     void start(motion.from, true);
   });
+  byId<HTMLSelectElement>("colour").addEventListener("change", (event) => {
+    byExponent = (event.target as HTMLSelectElement).value === "exponent";
+    colourBy();
+    if (system) void motion.change(system, undefined, false).then(remember);
+  });
   byId("again").addEventListener("click", () => void start(motion.nextOfFile(), motion.particles > 1));
   byId("clear").addEventListener("click", () => motion.clear());
   byId("run").addEventListener("click", () => {
@@ -231,6 +265,7 @@ function controls(): void {
   const paint = (dark: boolean) => {
     document.documentElement.dataset.theme = dark ? "dark" : "light";
     theme.textContent = dark ? "light" : "dark";
+    colourBy();
     table.recolour();
     section.recolour();
     numbers.recolour();
@@ -245,7 +280,7 @@ function controls(): void {
       if (!system) return;
       if (kind === "toml") save(`${stem}.toml`, new Blob([editor.text], { type: "application/toml" }));
       if (kind === "csv") save(`${stem}.csv`, csv(trace, system));
-      if (kind === "svg") save(`${stem}.svg`, svg(trace, system));
+      if (kind === "svg") save(`${stem}.svg`, svg(trace, system, tint));
       if (kind === "png") save(`${stem}.png`, await png(table, section));
     });
   }

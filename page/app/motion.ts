@@ -3,6 +3,7 @@ import type { Client } from "./client";
 import { TRUSTED, type Frame, type Start, type System, type Trust } from "./protocol";
 import type { Section } from "./section";
 import type { Table } from "./table";
+import type { Tint } from "./tint";
 import type { Trace } from "./trace";
 import { count, plain } from "./words";
 
@@ -17,6 +18,8 @@ interface Hooks {
   say(text: string): void;
   /** How fast the page's time goes has changed. */
   paced(): void;
+  /** The scale of colours has changed. */
+  tinted(): void;
   /** The line below the drawings. */
   state(text: string): void;
 }
@@ -46,12 +49,14 @@ export class Motion {
   private begun = 0; // particles, since all were forgotten
   private speed = 1;
   private note = "";
+  private tintAt = 0; // when colours may change again
 
   constructor(
     private readonly client: Client,
     private readonly trace: Trace,
     private readonly table: Table,
     private readonly section: Section,
+    private readonly tint: Tint,
     private readonly hooks: Hooks,
   ) {
     requestAnimationFrame((now) => this.tick(now));
@@ -81,6 +86,7 @@ export class Motion {
     const begun = await this.client.begin({
       do: "begin", system: system.system, forces: system.potential, walls: system.walls.length > 0,
       starts: starts(from, n), slots: this.slots(n * Math.max(1, system.particles)), keep,
+      rates: this.tint.by === "exponent",
     });
     if (generation !== this.generation) return true;
     this.system = system;
@@ -142,6 +148,7 @@ export class Motion {
 
   private forget(): void {
     this.trace.clear();
+    this.tint.clear();
     this.t = 0;
     this.hits = 0;
     this.begun = 0;
@@ -169,6 +176,7 @@ export class Motion {
     const frames = this.ready;
     this.ready = [];
     for (const frame of frames) this.draw(frame);
+    if (begin > this.tintAt && this.tint.renewed()) this.retint();
     if (!this.busy && this.playing && this.system && this.flying) {
       const elapsed = Math.min(now - this.lastAsk, 50) / 1000;
       this.lastAsk = now;
@@ -186,6 +194,16 @@ export class Motion {
       for (const list of [costs, intervals, engine]) if (list.length > 600) list.shift();
     }
     this.lastFrame = now;
+  }
+
+  /** All in the colours that orbits have now: not often, where much is drawn. */
+  private retint(): void {
+    const begin = performance.now();
+    this.table.draw();
+    this.section.draw();
+    this.hooks.tinted();
+    const end = performance.now();
+    this.tintAt = end + Math.max(400, 20 * (end - begin));
   }
 
   private ask(t: number): void {
@@ -206,6 +224,7 @@ export class Motion {
     this.hits += frame.hits.length / 10;
     this.trace.add(frame.hits);
     this.trace.addTrail(frame.trail);
+    this.tint.take(frame.rates);
     this.table.step(frame);
     this.section.step(frame.hits);
     if (frame.ended.length && this.particles === 1) {

@@ -8,6 +8,8 @@ import { copy, count, make, plain, withError } from "./words";
 type Result = any; // what `carom ANALYSIS --json` prints, with the command
 
 interface Kind {
+  /** A name for what the panel shows. */
+  shows: string;
   analysis: string;
   heading: string;
   first: number;
@@ -25,6 +27,7 @@ interface Worked {
 }
 
 const workers = Math.max(1, Math.min(4, navigator.hardwareConcurrency - 1));
+const MOST_WALLS = 24; // to choose from
 const PATIENCE = 8; // seconds that one ensemble may take before the doubling waits
 
 /** Both axes logarithmic, no farther than the data. */
@@ -34,6 +37,7 @@ const logarithmic: uPlot.Scales = {
 };
 
 const escape: Kind = {
+  shows: "escape",
   analysis: "escape",
   heading: "Survival",
   first: 1000,
@@ -86,6 +90,7 @@ function bars(x: number[], y: number[]): ReturnType<Kind["plot"]> {
 }
 
 const lyapunov: Kind = {
+  shows: "lyapunov",
   analysis: "lyapunov",
   heading: "Lyapunov exponent",
   first: 16,
@@ -125,6 +130,7 @@ const lyapunov: Kind = {
 };
 
 const diffusion: Kind = {
+  shows: "diffusion",
   analysis: "diffusion",
   heading: "Mean square displacement",
   first: 250,
@@ -149,6 +155,68 @@ const diffusion: Kind = {
   },
 };
 
+/** Of a distribution: the fraction of what is longer, and the power law of its tail. */
+function longer(bins: Result[], label: string, tail: Result): ReturnType<Kind["plot"]> {
+  const colours = ink();
+  const rows = bins.filter((bin) => bin.longer > 0 && bin.from > 0);
+  const last = rows.findLast((bin) => bin.from <= tail?.to);
+  const curve = rows.map(({ from }) => (last && from >= tail.from ? last.longer * (from / last.from) ** -tail.exponent.value : null));
+  return {
+    options: {
+      scales: logarithmic,
+      series: [{ label }, { label: "fraction", stroke: colours.ink, width: 1.2, points: { show: rows.length < 40, size: 4, fill: colours.paper } },
+        { label: "tail", stroke: colours.accent, width: 1.5, points: { show: false } }],
+    },
+    data: [rows.map((bin) => bin.from), rows.map((bin) => bin.longer), curve],
+  };
+}
+
+const flights: Kind = {
+  shows: "flights",
+  analysis: "diffusion",
+  heading: "Flights",
+  first: 250,
+  options: { free_paths: true },
+  adds: true,
+  facts({ free_paths: { mean, expected_mean, between_hits } }) {
+    const facts: [string, string][] = [];
+    if (mean?.value != null) facts.push(["mean length", withError(mean.value, mean.stderr)]);
+    if (expected_mean != null) facts.push(["π area / perimeter", plain(expected_mean, 6)]);
+    if (between_hits.tail) facts.push(["exponent of the tail", withError(between_hits.tail.exponent.value, between_hits.tail.exponent.stderr)]);
+    facts.push(["flights", count(between_hits.flights)]);
+    return facts;
+  },
+  plot: ({ free_paths: { between_hits } }) => longer(between_hits.bins, "length; fraction that is longer", between_hits.tail),
+};
+
+/** How long orbits stay away from a wall. */
+function returns(wall: string): Kind {
+  return {
+    shows: `returns ${wall}`,
+    analysis: "returns",
+    heading: `Returns to ${wall}`,
+    first: 250,
+    options: { on: `wall:${wall}` },
+    adds: true,
+    facts({ mean_time, expected_time, tail, excursions }) {
+      const facts: [string, string][] = [];
+      if (mean_time?.value != null) facts.push(["mean time", withError(mean_time.value, mean_time.stderr)]);
+      if (expected_time != null) facts.push(["Kac’s lemma", plain(expected_time, 6)]);
+      if (tail) facts.push(["local slope of the tail", withError(tail.exponent.value, tail.exponent.stderr)]);
+      facts.push(["excursions", count(excursions)]);
+      return facts;
+    },
+    plot: ({ return_times, tail }) => longer(return_times, "time; fraction that is longer", tail),
+  };
+}
+
+/** What the last panel can show, as the reader chooses. */
+function choices(system: System): Kind[] {
+  const walls = system.walls.filter((wall) => !wall.hole && !wall.passed).map((wall) => wall.name);
+  const free = walls.length && !system.potential ? [flights] : [];
+  return [...free, ...[...new Set(walls)].slice(0, MOST_WALLS).map(returns)];
+}
+
 class Panel {
   readonly element: HTMLElement;
   readonly kind: Kind;
@@ -169,15 +237,25 @@ class Panel {
   spent = 0; // milliseconds
   done = false;
 
-  constructor(kind: Kind) {
+  /** With other kinds among which the reader may choose, the heading is the choice. */
+  constructor(kind: Kind, among: Kind[], chosen: (kind: Kind) => void) {
     this.kind = kind;
     this.next = kind.first;
     this.copy.addEventListener("click", () => void copy(this.command.textContent!, this.copy));
     this.result.append(make("span", {}, "digest ", this.digest), this.copy, this.command);
-    this.element = make("section", { class: "panel" }, make("h2", {}, kind.heading, " ", this.size, " ", this.more), this.chart, this.facts, this.result);
-    this.element.dataset.analysis = kind.analysis;
+    this.element = make("section", { class: "panel" }, make("h2", {}, this.heading(among, chosen), " ", this.size, " ", this.more), this.chart, this.facts, this.result);
+    this.element.dataset.shows = kind.shows;
     this.chart.append(make("p", { class: "note", textContent: `The first ensemble is being computed: ${kind.first} trajectories.` }));
     new ResizeObserver(() => this.plot?.setSize(this.room())).observe(this.chart);
+  }
+
+  private heading(among: Kind[], chosen: (kind: Kind) => void): Node | string {
+    if (among.length < 2) return this.kind.heading;
+    const choice = make("select", {}, ...among.map((one) => make("option", { value: one.shows, textContent: one.heading })));
+    choice.setAttribute("aria-label", "What this panel shows");
+    choice.value = this.kind.shows;
+    choice.addEventListener("change", () => chosen(among.find((one) => one.shows === choice.value)!));
+    return choice;
   }
 
   /** Flies the trajectories up to `to` that have not been flown, a part on each worker. */
@@ -286,12 +364,28 @@ export class Numbers {
     this.stop();
     const run = this.run;
     const holes = system.walls.some((wall) => wall.hole);
-    const kinds = [holes && escape, system.lattice && diffusion, lyapunov].filter((k): k is Kind => !!k);
-    this.panels = kinds.map((kind) => new Panel({
+    const of = (kind: Kind): Kind => ({
       ...kind,
       first: system.potential ? Math.max(1, kind.first >> 4) : kind.first,
-      options: kind === lyapunov && holes ? { closed: true } : {},
-    }));
+      options: { ...kind.options, ...(holes && kind !== escape && kind !== diffusion ? { closed: true } : {}) },
+    });
+    const last = choices(system).map(of);
+    let goOn = () => {};
+    const panelOf = (kind: Kind, among: Kind[] = []): Panel => {
+      const panel = new Panel(kind, among, (chosen) => {
+        const other = panelOf(chosen, among);
+        this.panels[this.panels.indexOf(panel)] = other;
+        panel.element.replaceWith(other.element);
+        goOn();
+      });
+      panel.more.addEventListener("click", () => {
+        panel.rest(false, true);
+        goOn();
+      });
+      return panel;
+    };
+    this.panels = [holes && escape, system.lattice && diffusion, lyapunov].filter((k): k is Kind => !!k).map((kind) => panelOf(of(kind)));
+    if (last.length) this.panels.push(panelOf(last[0], last));
     this.place.classList.remove("stale");
     this.place.replaceChildren(...this.panels.map((panel) => panel.element));
     const clients = (this.clients = Array.from({ length: workers }, () => new Client()));
@@ -301,7 +395,8 @@ export class Numbers {
         return { client, system: id };
       }));
       const limit = Number(system.keys.find((key) => key.section === "run" && key.key === "trajectories")?.value) || 1e5;
-      const goOn = async () => {
+      const work = async () => {
+        this.working = true;
         while (run === this.run) {
           // In turn, by the time that each has taken.
           const [panel] = this.panels.filter((one) => !one.done).sort((a, b) => a.spent - b.spent);
@@ -309,17 +404,12 @@ export class Numbers {
           while (document.hidden) await new Promise((seen) => document.addEventListener("visibilitychange", seen, { once: true }));
           await this.advance(flown, panel, limit, !system.potential);
         }
-        this.working = false;
+        if (run === this.run) this.working = false;
       };
-      for (const panel of this.panels) {
-        panel.more.addEventListener("click", () => {
-          panel.rest(false, true);
-          if (!this.working) void goOn();
-          this.working = true;
-        });
-      }
-      this.working = true;
-      await goOn();
+      goOn = () => {
+        if (!this.working && run === this.run) void work();
+      };
+      await work();
     } catch (error) {
       if (run === this.run) throw error;
     }

@@ -53,7 +53,7 @@ function around(trail: Float64Array): [number, number, number, number] {
 async function pathOf(client: Client, system: System): Promise<Float64Array> {
   if (system.walls.length > 0) return new Float64Array(0);
   const start = { seed: 1, trajectory: 0 };
-  await client.begin({ do: "begin", system: system.system, forces: true, walls: false, starts: [start], slots: [0], keep: false });
+  await client.begin({ do: "begin", system: system.system, forces: true, walls: false, starts: [start], slots: [0], keep: false, rates: false });
   await client.ask({ do: "grain", grain: 0.1 });
   const { trail } = await client.frame(40, 150);
   return trail.filter((_, i) => trail[i - (i % 3)] === 0); // the first particle's

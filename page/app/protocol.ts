@@ -43,11 +43,13 @@ export interface System {
   potential: boolean;
   field: number;
   particles: number;
+  /** Why orbits have no exponents; "" where they have. */
+  no_rates: string;
 }
 
 export type Request =
   | { do: "call"; request: object }
-  | { do: "begin"; system: number; forces: boolean; walls: boolean; starts: Start[]; slots: number[]; keep: boolean }
+  | { do: "begin"; system: number; forces: boolean; walls: boolean; starts: Start[]; slots: number[]; keep: boolean; rates: boolean }
   /** Under forces paths are drawn through places this far apart in time. */
   | { do: "grain"; grain: number }
   | { do: "frame"; t: number; budget: number }
@@ -88,6 +90,8 @@ export interface Frame {
   hits: Float64Array;
   /** Under forces, rows of three: slot, x, y along the paths. */
   trail: Float64Array;
+  /** Now and then rows of two: slot, and how fast the orbit's deviations have grown. */
+  rates: Float64Array;
   ended: { slot: number; why: string; t: number; x: number; y: number }[];
   flying: number;
   cost: number;

@@ -1,6 +1,7 @@
 // The boundary section: arc length s and the velocity along the wall over the speed, a point for each hit.
-import { ink, packed, type Ink } from "./palette";
+import { ink, type Ink } from "./palette";
 import { FRAME_ROW, type System } from "./protocol";
+import type { Tint } from "./tint";
 import type { Trace } from "./trace";
 import { listen, sized, View } from "./view";
 import { ticks } from "./words";
@@ -17,7 +18,7 @@ export class Section {
   private size = 4;
   private cursor?: { s: number; v: number };
 
-  constructor(place: HTMLElement, private readonly trace: Trace, private readonly start: (s: number, v: number) => void) {
+  constructor(place: HTMLElement, private readonly trace: Trace, private readonly tint: Tint, private readonly start: (s: number, v: number) => void) {
     this.under = document.createElement("canvas");
     this.over = document.createElement("canvas");
     place.append(this.under, this.over);
@@ -123,7 +124,7 @@ export class Section {
     return rows < 300 ? 4 : rows < 3000 ? 3 : rows < 20000 ? 2 : 1;
   }
 
-  private draw(): void {
+  draw(): void {
     this.drawAxes();
     this.size = this.sizeFor(this.trace.rows);
     const { width, height } = this.over;
@@ -144,7 +145,7 @@ export class Section {
     const { width } = this.bitmap;
     const ratio = width / view.width;
     const pixels = new Uint32Array(this.bitmap.data.buffer);
-    const inks = this.colours.orbits.map((colour) => packed(colour, 0.9));
+    const inks = this.tint.packed(0.9);
     const size = Math.max(1, Math.round(this.size * ratio * 0.8));
     const left = Math.round(view.left * ratio);
     const bottom = Math.round((view.height - view.bottom) * ratio);
@@ -153,7 +154,7 @@ export class Section {
       const px = Math.round(view.px(hits[at + 7]) * ratio - size / 2);
       const py = Math.round(view.py(hits[at + 8] / speed) * ratio - size / 2);
       if (px < left || py < 0 || px + size > width || py + size > bottom) continue;
-      const ink = inks[hits[at] % inks.length];
+      const ink = inks[this.tint.index(hits[at])];
       for (let y = py; y < py + size; ++y) for (let x = px; x < px + size; ++x) pixels[y * width + x] = ink;
     }
   }

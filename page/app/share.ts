@@ -6,6 +6,7 @@ export interface Shared {
   toml?: string;
   start?: Start;
   particles?: number;
+  byExponent?: boolean;
 }
 
 const base64 = (bytes: Uint8Array) =>
@@ -29,6 +30,7 @@ export async function fragment(shared: Shared): Promise<string> {
   if (start && "s" in start) parts.push(`section=${start.s},${start.v}`);
   if (start && "seed" in start && (start.seed !== 1 || start.trajectory !== 0)) parts.push(`trajectory=${start.seed},${start.trajectory}`);
   if (shared.particles && shared.particles !== 1) parts.push(`particles=${shared.particles}`);
+  if (shared.byExponent) parts.push("colour=exponent");
   return `#${parts.join("&")}`;
 }
 
@@ -49,6 +51,7 @@ export async function read(hash: string): Promise<Shared> {
   else if (section) shared.start = { s: section[0], v: section[1] };
   else if (trajectory) shared.start = { seed: trajectory[0], trajectory: trajectory[1] };
   shared.particles = numbers("particles", 1)?.[0];
+  shared.byExponent = parts.get("colour") === "exponent";
   shared.name = parts.get("system");
   const packed = parts.get("toml");
   if (packed) shared.toml = new TextDecoder().decode(await through(bytes(packed), new DecompressionStream("deflate-raw")));

@@ -3,6 +3,7 @@ import { arc } from "./flight";
 import { type Handle } from "./handles";
 import { ink, packed, type Ink } from "./palette";
 import { FRAME_ROW, type Frame, type System } from "./protocol";
+import type { Tint } from "./tint";
 import type { Trace } from "./trace";
 import { listen, sized, View } from "./view";
 
@@ -40,7 +41,7 @@ export class Table {
   private alpha = 1;
   private near = matchMedia("(pointer: coarse)").matches;
 
-  constructor(place: HTMLElement, private readonly trace: Trace, private readonly events: TableEvents) {
+  constructor(place: HTMLElement, private readonly trace: Trace, private readonly tint: Tint, private readonly events: TableEvents) {
     this.under = document.createElement("canvas");
     const middle = document.createElement("canvas");
     this.over = document.createElement("canvas");
@@ -197,7 +198,7 @@ export class Table {
     if (y > seen[3]) seen[3] = y + more;
   }
 
-  private draw(): void {
+  draw(): void {
     this.drawWalls();
     this.paths.clearRect(0, 0, this.view.width, this.view.height);
     this.alpha = transparency(this.trace.rows);
@@ -295,7 +296,7 @@ export class Table {
     this.paths.lineWidth = 0.8;
     this.paths.globalAlpha = 0.6;
     for (const [slot, path] of paths) {
-      this.paths.strokeStyle = this.colour(slot);
+      this.paths.strokeStyle = this.tint.colour(slot);
       this.paths.stroke(path);
     }
     this.paths.globalAlpha = 1;
@@ -310,7 +311,7 @@ export class Table {
       const from = this.last.get(slot);
       this.last.set(slot, [row[0], row[1], row[2], row[3], row[4], row[8]]);
       if (!from) continue;
-      const colour = this.colour(slot);
+      const colour = this.tint.colour(slot);
       let path = byColour.get(colour);
       if (!path) byColour.set(colour, (path = new Path2D()));
       flight(path, view, from, row);
@@ -324,10 +325,6 @@ export class Table {
     g.globalAlpha = 1;
   }
 
-  private colour(slot: number): string {
-    return this.colours.orbits[slot % this.colours.orbits.length];
-  }
-
   private drawTop(): void {
     const { top: g, view, frame, colours } = this;
     g.clearRect(0, 0, view.width, view.height);
@@ -335,7 +332,7 @@ export class Table {
     else if (frame) {
       frame.slots.forEach((slot, i) => {
         const [x, y] = [frame.dots[2 * i], frame.dots[2 * i + 1]];
-        g.fillStyle = g.strokeStyle = this.colour(slot);
+        g.fillStyle = g.strokeStyle = this.tint.colour(slot);
         const from = this.withPaths && this.last.get(slot);
         if (from) {
           const path = new Path2D();
@@ -365,7 +362,7 @@ export class Table {
     g.lineWidth = 1;
     if (this.orbits <= 300) {
       for (const { slot, x, y } of this.gone) {
-        g.strokeStyle = this.colour(slot);
+        g.strokeStyle = this.tint.colour(slot);
         g.beginPath();
         g.arc(view.px(x), view.py(y), 2.5, 0, 2 * Math.PI);
         g.stroke();
@@ -395,14 +392,14 @@ export class Table {
     if (!this.bitmap || this.bitmap.width !== width || this.bitmap.height !== height) this.bitmap = new ImageData(width, height);
     const pixels = new Uint32Array(this.bitmap.data.buffer);
     pixels.fill(0);
-    const inks = this.colours.orbits.map((colour) => packed(colour, 1));
-    const single = frame.slots.length > 0 && this.orbits > 64 ? packed(this.colours.accent, 1) : 0;
+    const inks = this.tint.packed(1);
+    const single = this.tint.by === "orbit" && this.orbits > Table.WITH_PATHS ? packed(this.colours.accent, 1) : 0;
     const size = Math.max(1, Math.round((frame.slots.length > 3000 ? 1 : 2) * ratio));
     for (let i = 0; i < frame.slots.length; ++i) {
       const px = Math.round(this.view.px(frame.dots[2 * i]) * ratio - size / 2);
       const py = Math.round(this.view.py(frame.dots[2 * i + 1]) * ratio - size / 2);
       if (px < 0 || py < 0 || px + size > width || py + size > height) continue;
-      const ink = single || inks[frame.slots[i] % inks.length];
+      const ink = single || inks[this.tint.index(frame.slots[i])];
       for (let y = py; y < py + size; ++y) for (let x = px; x < px + size; ++x) pixels[y * width + x] = ink;
     }
     this.top.putImageData(this.bitmap, 0, 0);

@@ -41,7 +41,7 @@ self.onmessage = async (event: MessageEvent) => {
         break;
       case "frame": {
         const frame = flock.frame(ask.t, ask.budget);
-        self.postMessage({ id, result: frame }, [frame.dots.buffer, frame.hits.buffer, frame.slots.buffer, frame.trail.buffer]);
+        self.postMessage({ id, result: frame }, [frame.dots.buffer, frame.hits.buffer, frame.slots.buffer, frame.trail.buffer, frame.rates.buffer]);
         break;
       }
       case "decisions":

@@ -40,6 +40,13 @@ constexpr Named named[] = {
     {"points", "--points", &Options::points, nullptr},
     {"orbits", "--orbits", &Options::orbits, nullptr}};
 
+/// Options without a value that set a key of the system, after --set.
+struct Flag {
+  const char *key, *option, *path, *value;
+};
+constexpr Flag flags[] = {{"closed", "--closed", "table.hole", "[]"},
+                          {"free_paths", "--free-paths", "run.free_paths", "true"}};
+
 std::string in_shell(const std::string& text) {
   const bool plain = text.find_first_not_of(
                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
@@ -55,19 +62,20 @@ Options typed(const Request& request, const OpenSystem& open) {
   options.system_text = open.toml;
   options.quiet = options.json = true;
   options.line = fmt::format("carom {} {}", options.command, open.name);
-  bool closed = false;
   const auto set = [&](const std::string& path, const std::string& value) {
     options.overrides.set.emplace_back(path, value);
     options.line += " --set " + in_shell(path + "=" + value);
+  };
+  const auto flag = [](const std::string& key) {
+    return std::any_of(std::begin(flags), std::end(flags),
+                       [&](const Flag& one) { return key == one.key; });
   };
   static const Request none;
   for (const auto& [key, value] : request.get_child("options", none)) {
     const std::string& text = value.data();
     if (key == "set") {
       for (const auto& [path, one] : value) set(path, one.data());
-    } else if (key == "closed") {
-      closed = text == "true";
-    } else {
+    } else if (!flag(key)) {
       const Named* const found = std::find_if(std::begin(named), std::end(named),
                                               [&k = key](const Named& n) { return k == n.key; });
       if (found == std::end(named)) throw InputError("the page has no option '" + key + "'");
@@ -75,9 +83,10 @@ Options typed(const Request& request, const OpenSystem& open) {
       options.line += fmt::format(" {} {}", found->option, in_shell(text));
     }
   }
-  if (closed) {  // the program takes it after --set
-    options.overrides.set.emplace_back("table.hole", "[]");
-    options.line += " --closed";
+  for (const Flag& one : flags) {
+    if (request.get<std::string>(std::string("options.") + one.key, "") != "true") continue;
+    options.overrides.set.emplace_back(one.path, one.value);
+    options.line += fmt::format(" {}", one.option);
   }
   return options;
 }

@@ -10,6 +10,7 @@
 #include "carom/analyses/run/rows.hpp"
 #include "carom/base/error.hpp"
 #include "carom/events/medium.hpp"
+#include "growth.hpp"
 #include "systems.hpp"
 
 namespace carom::page {
@@ -31,6 +32,8 @@ class Flight final : public Observer {
       for (std::size_t p = 0; p < states_.size(); ++p)
         trust_->follow(system().particles[p], states_[p], 0);
     }
+    follows_growth_ = start.get("rates", false);
+    if (follows_growth_ && !forced()) growth_.emplace(system(), world_);
     world_.stop_when([this] { return rows_[asked_].size() >= wanted_; });
   }
   Flight(const Flight&) = delete;
@@ -69,12 +72,25 @@ class Flight final : public Observer {
     if (!places_ || t < places_->time) {
       places_.emplace(Places{open_->world.empty_copy(), 0.0});
       start(places_->world);
+      // Where forces act deviations go beside the world that gives places.
+      if (follows_growth_ && forced()) growth_.emplace(system(), places_->world);
     }
-    places_->world.run_until(t);
+    if (follows_growth_ && forced())
+      places_->world.run_until(t, *growth_);
+    else
+      places_->world.run_until(t);
     places_->time = t;
     const auto number = static_cast<int>(particle);
     const SampleRow at = sample_row(number, t, places_->world.state_at(number, t), table());
     for (const double x : {at.x, at.y, at.vx, at.vy}) *out++ = x;
+  }
+
+  /// How fast deviations have grown until t, or a later event that was read ahead; 0: they are not
+  /// followed.
+  double rate(std::size_t particle, double t) {
+    std::array<double, 4> there;
+    if (follows_growth_ && forced()) place(particle, t, there.data());
+    return growth_ ? growth_->rate(particle, t) : 0.0;
   }
 
   static constexpr std::size_t row = 9;
@@ -86,6 +102,7 @@ class Flight final : public Observer {
     double time;
   };
 
+  bool forced() const { return system().dynamics.forces && !system().dynamics.forces->empty(); }
   void add(const Request& start) {
     const std::size_t all = act_on_each_other(system()) ? system().particles.size() : 1;
     const auto seed = start.get_optional<std::uint64_t>("seed");
@@ -136,7 +153,7 @@ class Flight final : public Observer {
 
   // Of the flight that led to a hit, positive to the left; where forces act it has none.
   double curvature_before(const HitEvent& event) const {
-    if (system().dynamics.forces && !system().dynamics.forces->empty()) return 0.0;
+    if (forced()) return 0.0;
     const Particle& outside = system().particles[static_cast<std::size_t>(event.particle)];
     int region = -1;
     if (!table().regions.empty()) {
@@ -151,11 +168,15 @@ class Flight final : public Observer {
 
   void hit(const HitEvent& event) override {
     if (trust_) trust_->hit(event);
+    if (growth_ && !forced()) growth_->hit(event);
     const auto particle = static_cast<std::size_t>(event.particle);
     const HitRow hit = hit_row(event, table(), open_->frames);
     const double s = open_->offsets[static_cast<std::size_t>(hit.wall)] + hit.s;
     rows_[particle].push_back({hit.t, hit.x, hit.y, hit.vx, hit.vy, static_cast<double>(hit.wall),
                                s, hit.v_parallel, curvature_before(event)});
+  }
+  void contact(const ContactEvent& event) override {
+    if (growth_) growth_->contact(event);
   }
   void end(const EndEvent& event) override {
     if (trust_) trust_->end(event);
@@ -171,6 +192,8 @@ class Flight final : public Observer {
   std::size_t asked_ = 0, wanted_ = 1;
   std::optional<Places> places_;
   std::optional<TrustRecorder> trust_;
+  bool follows_growth_ = false;
+  std::optional<Growth> growth_;
 };
 
 struct Orbit {
@@ -250,5 +273,12 @@ void carom_places(const int* orbits, int n, double t, double* out) {
   for (int i = 0; i < n; ++i, out += 4)
     if (carom::page::Orbit* const found = carom::page::find(orbits[i]))
       found->flight->place(found->particle, t, out);
+}
+/// How fast deviations of each of n orbits have grown.
+void carom_rates(const int* orbits, int n, double t, double* out) {
+  for (int i = 0; i < n; ++i) {
+    carom::page::Orbit* const found = carom::page::find(orbits[i]);
+    out[i] = found ? found->flight->rate(found->particle, t) : 0.0;
+  }
 }
 }

@@ -5,6 +5,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
+#include "engines/followed_deviations.hpp"
 #include "files/toml/value.hpp"
 #include "systems.hpp"
 
@@ -127,6 +128,16 @@ void add_keys(const Value& table, const std::string& section, Json& list) {
   }
 }
 
+// Why orbits have no exponents; "" where they have.
+std::string why_no_rates(const System& system) {
+  try {
+    engines::refuse_no_deviations(system);
+    return {};
+  } catch (const InputError& error) {
+    return error.problem();
+  }
+}
+
 }  // namespace
 
 Json outline(const OpenSystem& open) {
@@ -148,7 +159,8 @@ Json outline(const OpenSystem& open) {
       .set("length", open.offsets.back())
       .set("potential", system.dynamics.forces && !system.dynamics.forces->empty())
       .set("field", field ? ExactNumber(field->text, field->place).to_double() : 0.0)
-      .set("particles", system.particles.size());
+      .set("particles", system.particles.size())
+      .set("no_rates", why_no_rates(system));
 }
 
 }  // namespace carom::page

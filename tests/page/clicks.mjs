@@ -4,6 +4,7 @@ import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
 import { availableParallelism, loadavg, tmpdir } from "node:os";
 import { join } from "node:path";
+import { deflateRawSync } from "node:zlib";
 import { launch, page as file, program } from "./browser.mjs";
 
 const browser = await launch();
@@ -22,7 +23,7 @@ const motion = () => page.evaluate(() => {
   return { from: motion.from, particles: motion.particles, hits: motion.hits, flying: motion.flying, frames: timing.frames };
 });
 const hits = (count) => page.waitForFunction((n) => window.carom.motion.hits >= n, count);
-const panel = (analysis) => page.locator(`[data-analysis="${analysis}"]`);
+const panel = (analysis) => page.locator(`[data-shows="${analysis}"]`);
 const tomlOf = async () => (await download("toml")).text;
 
 /** Times are judged where no other work takes the machine; they are printed always. */
@@ -60,6 +61,18 @@ async function drag(dx, dy) {
   await page.mouse.move(x + dx, y + dy, { steps: 4 });
   await page.mouse.up();
   await page.waitForFunction(() => "position" in window.carom.motion.from);
+}
+
+/** The command of a panel gives its digest in a terminal, too. */
+async function inTerminal(shows, file, facts = /./) {
+  await page.waitForFunction((name) => document.querySelector(`#numbers:not(.stale) [data-shows="${name}"] .digest`)?.textContent, shows);
+  const [digest, command, told] = await panel(shows).evaluate((p) =>
+    [p.querySelector(".digest").textContent, p.querySelector("code").textContent, p.querySelector("dl").innerText]);
+  const words = command.split(" ").slice(1).map((word) => (word === "SYSTEM.toml" ? file : word));
+  const native = JSON.parse(execFileSync(program, [...words, "--json"], { encoding: "utf8", maxBuffer: 1 << 26 }));
+  assert.equal(native.digest, digest, command);
+  assert.match(told, facts);
+  return `${command} gives ${digest}`;
 }
 
 /** Replaces a line of the editor by typing. */
@@ -197,16 +210,7 @@ try {
   await step("export and digest", async () => {
     await page.waitForFunction(() => location.hash.includes("toml="));
     const exported = await download("toml");
-    const said = [];
-    for (const analysis of ["escape", "lyapunov"]) {
-      await page.waitForFunction((name) => document.querySelector(`#numbers:not(.stale) [data-analysis="${name}"] .digest`)?.textContent, analysis);
-      const [digest, command] = await panel(analysis).evaluate((p) => [p.querySelector(".digest").textContent, p.querySelector("code").textContent]);
-      const words = command.split(" ").slice(1).map((word) => (word === "SYSTEM.toml" ? exported.path : word));
-      const native = JSON.parse(execFileSync(program, [...words, "--json"], { encoding: "utf8", maxBuffer: 1 << 26 }));
-      assert.equal(native.digest, digest, command);
-      said.push(`${command} gives ${digest}`);
-    }
-    return said.join("; ");
+    return [await inTerminal("escape", exported.path), await inTerminal("lyapunov", exported.path)].join("; ");
   });
 
   await step("hits, drawing, picture", async () => {
@@ -260,6 +264,46 @@ try {
     return `${costs.length} frames; drawing ${middle(costs).toFixed(1)} ms (95 % below ${high(costs).toFixed(1)}), ` +
       `engine ${middle(engine).toFixed(1)} ms (95 % below ${high(engine).toFixed(1)}), ` +
       `from frame to frame ${middle(intervals).toFixed(1)} ms (95 % below ${high(intervals).toFixed(1)}); ${flying} fly`;
+  });
+
+  await step("colours by exponent", async () => {
+    await pick("mushroom");
+    await page.locator("#particles").fill("2");
+    await page.locator("#speed").fill("2.5");
+    await page.locator("#colour").selectOption("exponent");
+    await page.waitForFunction(() => window.carom.motion.tint.rates.size > 50 && window.carom.motion.hits > 5000);
+    await page.waitForFunction(() => /\/ time/.test(document.getElementById("scale").textContent));
+    assert.match(await page.evaluate(() => location.hash), /colour=exponent/);
+    // Regular orbits stay dark, chaotic ones do not: points of many colours of the scale.
+    const colours = await page.evaluate(() => {
+      const canvas = document.querySelectorAll("#section canvas")[1];
+      const pixels = new Uint32Array(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.buffer);
+      const seen = new Map();
+      for (const one of pixels) if (one >>> 24) seen.set(one, (seen.get(one) ?? 0) + 1);
+      return [...seen.values()].filter((count) => count > 30).length;
+    });
+    assert.ok(colours >= 6, `${colours} colours`);
+    const said = await text("scale");
+    // A wall that scatters has no tangent map.
+    const toml = `${(await download("toml")).text}\n[[table.wall]]\nwall = "stem_bottom"\nlaw = "diffuse"\n`;
+    await page.evaluate((hash) => (location.hash = hash), `toml=${deflateRawSync(toml).toString("base64url")}&colour=exponent`);
+    await page.waitForFunction(() => document.getElementById("colour").disabled);
+    assert.match(await text("scale"), /reflects at random/);
+    assert.equal(await page.locator("#colour").inputValue(), "orbit");
+    await pick("stadium");
+    assert.equal(await page.locator("#colour").inputValue(), "exponent");
+    await page.locator("#colour").selectOption("orbit");
+    await page.locator("#particles").fill("0");
+    return `scale ${said.replace(/\s+/g, " ")}, ${colours} colours`;
+  });
+
+  await step("flights, returns, squares", async () => {
+    const said = [await inTerminal("flights", "", /mean length/)];
+    await page.locator(".panel select").selectOption("returns bottom");
+    said.push(await inTerminal("returns bottom", "", /Kac/));
+    await pick("lorentz-triangular");
+    said.push(await inTerminal("diffusion", "", /D/), await inTerminal("flights", "", /mean length/));
+    return said.join("; ");
   });
 
   await step("no request leaves", () => {

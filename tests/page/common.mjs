@@ -49,6 +49,17 @@ export function places(orbits, t) {
   module._free(out);
   return all;
 }
+
+/** How fast deviations of orbits have grown until time t. */
+export function rates(orbits, t) {
+  const ids = module._malloc(4 * orbits.length), out = module._malloc(8 * orbits.length);
+  module.HEAPU8.set(new Uint8Array(Int32Array.from(orbits).buffer), ids);
+  module._carom_rates(ids, orbits.length, t, out);
+  const all = [...module.HEAPF64.subarray(out / 8, out / 8 + orbits.length)];
+  module._free(ids);
+  module._free(out);
+  return all;
+}
 export const bytes = () => module.HEAPU8.length;
 
 /** What the program prints: {out, error}. */

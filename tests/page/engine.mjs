@@ -4,7 +4,7 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { execFileSync } from "node:child_process";
 import { tmpdir } from "node:os";
 import path from "node:path";
-import { call, carom, each, expect, finish, places, step } from "./common.mjs";
+import { call, carom, each, expect, finish, places, rates, step } from "./common.mjs";
 
 const folder = mkdtempSync(path.join(tmpdir(), "carom-page-"));
 const { systems } = call({ do: "systems" });
@@ -70,6 +70,7 @@ const text = call({ do: "toml", name: "stadium" }).toml.replace("half_length = 2
 const edited = call({ do: "load", toml: text });
 writeFileSync(path.join(folder, "SYSTEM.toml"), text);
 await compare("escape", edited, { trajectories: 200, seed: 7, closed: false }, { cwd: folder });
+await compare("diffusion", edited, { trajectories: 40, t_max: 50, free_paths: true, closed: true }, { cwd: folder });
 await compare("lyapunov", edited, { trajectories: 20, t_max: 50, closed: true, set: { "field.B": "0.1" } }, { cwd: folder });
 expect(edited.keys.find((key) => key.key === "half_length").line === text.split("\n").findIndex((l) => l.includes("2.25")) + 1,
   "a key tells its line");
@@ -168,6 +169,28 @@ for (const [name, position, velocity] of [["sinai", [0, 0], [1, 1]], ["stadium",
   const run = JSON.parse(out), [t, x, y] = rows.at(-1) ?? [run.t, run.x, run.y];
   expect(exact > 0 && rows.length === run.collisions && t === run.t && x === run.x && y === run.y, `${name}, aimed: ${rows.length} hits, ${exact} exact, ${t} is not ${run.t}`);
   expect(why === (run.status === "completed" ? "" : run.status), `${name}, aimed: ${why}`);
+}
+
+// The rates that colour orbits are those of the program: their mean over the first trajectories.
+for (const [name, t, last] of [["sinai", 20, 1e-12], ["magnetic-square", 30, 1e-12], ["lorentz-triangular", 25, 1e-12], ["henon-heiles", 12, 1e-6]]) {
+  const toml = call({ do: "toml", name }).toml.replace(/\[\[table\.hole\]\][^[]*/g, "");
+  const { system, walls, no_rates } = call({ do: "load", toml });
+  expect(no_rates === "", `${name}: ${no_rates}`);
+  const all = Array.from({ length: 5 }, (_, trajectory) => {
+    const start = { seed: 1, trajectory, rates: true };
+    const ahead = call({ do: "orbit", system, start }).orbit, { orbit } = call({ do: "orbit", system, start });
+    const before = walls.length ? step(ahead, 200).filter((row) => row[0] <= t).length : 0;
+    if (before) step(orbit, before);
+    return rates([orbit], t)[0];
+  });
+  const { out } = await carom(["lyapunov", name, "--closed", "--trajectories", "5", "--seed", "1", "--t-max", String(t), "--window", `0:${t}`, "--json", "--quiet"]);
+  const { lambda: program } = JSON.parse(out).convergence.at(-1), mean = all.reduce((a, b) => a + b) / all.length;
+  expect(Math.abs(mean - program) <= last * Math.abs(program), `rates of ${name}: ${mean} is not ${program}`);
+}
+{
+  const toml = `${call({ do: "toml", name: "stadium" }).toml}\n[[table.wall]]\nwall = "bottom"\nlaw = "diffuse"\n`;
+  const { no_rates } = call({ do: "load", toml });
+  expect(/reflects at random/.test(no_rates), `no rates: ${no_rates}`);
 }
 
 // How far doubles can be trusted is what the program says.
