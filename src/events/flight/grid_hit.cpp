@@ -101,7 +101,7 @@ const std::vector<int>& HitFinder::pieces_on_way(const Flight& f) {
   list_.clear();
   if (t_.tree) {
     const Origin& own = origins_[0];
-    const auto add = [&](int piece) { list_.push_back(piece); };
+    const auto add = [&](int piece, bool) { list_.push_back(piece); };
     if (f.omega == 0.0)
       t_.tree->along_line(own.point, f.velocity, own.scale, add);
     else
@@ -178,14 +178,28 @@ bool HitFinder::filtered_in_grid(const Flight& f, Ahead& ahead) {
   return decided && !(ahead.piece >= 0 && t_.is_rough(f, ahead.piece));
 }
 
+template <bool larmor>
+bool HitFinder::filtered_in_tree(const Flight& f, Ahead& ahead) {
+  const Origin& own = origins_[0];
+  list_.clear();
+  bool crossed = false;
+  const auto add = [&](int piece, bool surely) {
+    list_.push_back(piece);
+    crossed = surely;
+  };
+  if constexpr (larmor)
+    t_.tree->exits_of_circle(own.point, f.velocity, f.omega, own.scale, add);
+  else
+    t_.tree->exits_of_line(own.point, f.velocity, own.scale, add);
+  if (crossed && list_.size() == 1 && filtered_alone<larmor>(f, list_.front(), ahead)) return true;
+  double error = 0.0;
+  ahead = Ahead();
+  return filtered_of<larmor, false, true>(f, ahead, list_, error);
+}
+
 bool HitFinder::filtered_among_many(const Flight& f, Ahead& ahead) {
   const bool larmor = f.omega != 0.0;
-  if (t_.tree) {
-    double error = 0.0;
-    ahead = Ahead();
-    return larmor ? filtered_of<true, false, true>(f, ahead, pieces_on_way(f), error)
-                  : filtered_of<false, false, true>(f, ahead, pieces_on_way(f), error);
-  }
+  if (t_.tree) return larmor ? filtered_in_tree<true>(f, ahead) : filtered_in_tree<false>(f, ahead);
   if (t_.cells)
     return larmor ? filtered_in_grid<true, true>(f, ahead)
                   : filtered_in_grid<false, true>(f, ahead);

@@ -335,6 +335,33 @@ template bool HitFinder::filtered_of<true, false, true>(const Flight&, Ahead&, s
 template bool HitFinder::filtered_of<true, true, true>(const Flight&, Ahead&, std::span<const int>,
                                                        double&);
 
+template <bool larmor>
+bool HitFinder::filtered_alone(const Flight& f, int piece, Ahead& ahead) const {
+  if (f.start_previous >= 0 || piece == f.start_piece || t_.thin) return false;
+  const PieceTable::PieceData& p = t_.data[at(piece)];
+  if (p.kind != CurveKind::segment && p.kind != CurveKind::bezier) return false;
+  const Meeting m{t_, f, origins_[0], *p.shape, piece, false, false, false};
+  Crossing c;
+  if (p.kind == CurveKind::bezier) {
+    if (t_.bezier_exit(f, piece, m.origin, m.origin.scale.inflation, c) != Sign::positive)
+      return false;
+  } else if constexpr (larmor) {
+    cross_larmor(m, c);
+    if (!far_root_certain(c.quadratic, m.error(), false)) return false;
+  } else {
+    if (line_through_segment(m, c) != Sign::positive) return false;
+  }
+  ahead.kind = Ahead::Kind::wall;
+  ahead.piece = piece;
+  ahead.root = 0;
+  ahead.u = c.u;
+  ahead.kappa = larmor ? c.root.kappa : c.unit / c.time;
+  ahead.duration = larmor ? duration_at(c.root.kappa, f.omega) : c.time / c.unit;
+  return true;
+}
+template bool HitFinder::filtered_alone<false>(const Flight&, int, Ahead&) const;
+template bool HitFinder::filtered_alone<true>(const Flight&, int, Ahead&) const;
+
 Ahead HitFinder::exact_next(const Flight& f, const std::vector<int>& pieces) const {
   const ExactFlight::First first =
       t_.exact_flight(f).first(pieces, f.cell, f.entry, f.start_piece, f.start_previous);

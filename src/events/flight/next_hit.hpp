@@ -86,6 +86,12 @@ class HitFinder {
   template <bool larmor, bool cells>
   bool filtered_in_grid(const Flight& flight, Ahead& ahead);
   bool filtered_among_many(const Flight& flight, Ahead& ahead);
+  template <bool larmor>
+  bool filtered_in_tree(const Flight& flight, Ahead& ahead);
+  /// The same where one piece is all that the flight may leave through, and its side surely rises
+  /// through zero along it. False: `filtered_of` is to tell.
+  template <bool larmor>
+  bool filtered_alone(const Flight& flight, int piece, Ahead& ahead) const;
   /// The first disc of those that a line is certain to enter from outside.
   struct FirstDisc {
     int piece = -1;
