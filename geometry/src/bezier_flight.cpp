@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <type_traits>
 
 #include "carom/geometry/bernstein.hpp"
+#include "curve_exit.hpp"
 #include "number_with_error.hpp"
 
 namespace carom::geometry {
@@ -12,30 +13,53 @@ namespace carom::geometry {
 namespace {
 
 constexpr std::size_t most = Bezier::most;
-constexpr int deepest = 40;
 using Powers = std::array<double, most + 1>;
 
 double norm_1(Vector v) { return std::fabs(v.x) + std::fabs(v.y); }
 
-/// A polynomial in u and its derivative.
-struct Local {
-  double value, slope;
+/// Differences of what follows each other.
+struct Steps {
+  double least = HUGE_VAL, most = -HUGE_VAL;
+  void add(double step) {
+    least = std::min(least, step);
+    most = std::max(most, step);
+  }
+  /// Do all rise by more than that, or all fall?
+  Sign trend(double hidden) const {
+    return least > hidden ? Sign::positive : most < -hidden ? Sign::negative : Sign::undecided;
+  }
 };
 
 /// The line as polynomials in u: g = v x (x(u) - start), which rises where the line leaves the
-/// domain, and a = v . (x(u) - start). Standing on the curve both are divided by u - on.
+/// domain, and a = v . (x(u) - start). Standing on the curve both are divided by u - on, and their
+/// highest power is none.
+template <std::size_t degree>
 class Line {
  public:
   Line(const BezierForm& curve, Vector start, Vector v, const FlightScale& scale, double on);
 
   bool stands() const { return on_ >= 0.0; }
   double on() const { return on_; }
-  const BernsteinPolynomial<NumberWithError, most>& bernstein() const { return bernstein_; }
+  BernsteinPolynomial<NumberWithError, most> bernstein() const;
+  /// Not standing on the curve.
+  Course course() const {
+    Steps steps;
+    double last = across_[0];
+    for (std::size_t i = 1; i <= degree; ++i) {
+      const double g = cross(v_, curve_.control[i] - start_);
+      steps.add(g - last);
+      last = g;
+    }
+    // Control points are within `reach` of the first in each coordinate.
+    const double error = coefficient_error(norm_1(curve_.control[0] - start_) + 2.0 * curve_.reach);
+    return {steps.trend(6.0 * error), across_[0], last, error};
+  }
+  bool surely_missed() const;
   double error() const { return error_; }
   double value(double u) const { return value(across_, u); }
   double slope(double u) const {
     double sum = 0.0;
-    for (std::size_t k = degree_; k > 0; --k) sum = static_cast<double>(k) * across_[k] + u * sum;
+    for (std::size_t k = degree; k > 0; --k) sum = rates_[k] + u * sum;
     return sum;
   }
   Local at(double u) const { return {value(u), slope(u)}; }
@@ -45,83 +69,97 @@ class Line {
 
  private:
   double value(const Powers& p, double u) const {
-    double sum = p[degree_];
-    for (std::size_t k = degree_; k-- > 0;) sum = p[k] + u * sum;
+    double sum = p[degree];
+    for (std::size_t k = degree; k-- > 0;) sum = p[k] + u * sum;
     return sum;
   }
+  double coefficient_error(double distance) const {
+    return scale_.inflation * 1.01 * norm_1(v_) * (scale_.delta + 4.1 * unit_roundoff * distance);
+  }
+  NumberWithError coefficient(std::size_t i) const {
+    const Vector d = curve_.control[i] - start_;
+    return {cross(v_, d), coefficient_error(norm_1(d))};
+  }
 
-  double on_;
-  std::size_t degree_;
-  Powers across_{}, along_{};
-  double error_ = 0.0;        // of a value of both
-  double along_slope_ = 0.0;  // bounds that of a
-  BernsteinPolynomial<NumberWithError, most> bernstein_;
+  const BezierForm& curve_;
+  const FlightScale& scale_;
+  Vector start_, v_;
+  double on_, size_;
+  Powers across_{}, along_{}, rates_{};  // rates: k across_[k]
+  double error_ = 0.0;                   // of a value of both
+  double along_slope_ = 0.0;             // bounds that of a
 };
 
-Line::Line(const BezierForm& curve, Vector start, Vector v, const FlightScale& scale, double on)
-    : on_(on), degree_(curve.degree) {
-  constexpr double u = unit_roundoff;
-  const double n = static_cast<double>(degree_), size = norm_1(v) * curve.reach;
-  for (std::size_t k = 1; k <= degree_; ++k) {
+template <std::size_t degree>
+Line<degree>::Line(const BezierForm& curve, Vector start, Vector v, const FlightScale& scale,
+                   double on)
+    : curve_(curve), scale_(scale), start_(start), v_(v), on_(on), size_(norm_1(v) * curve.reach) {
+  constexpr double u = unit_roundoff, n = degree;
+  for (std::size_t k = 1; k <= degree; ++k) {
     across_[k] = cross(v, curve.power[k]);
     along_[k] = dot(v, curve.power[k]);
   }
   if (!stands()) {
-    for (std::size_t i = 0; i <= degree_; ++i) {
-      const Vector d = curve.control[i] - start;
-      bernstein_.b[i] = {cross(v, d),
-                         scale.inflation * 1.01 * norm_1(v) * (scale.delta + 4.1 * u * norm_1(d))};
-    }
-    across_[0] = bernstein_.b[0].value;
+    const NumberWithError first = coefficient(0);
+    across_[0] = first.value;
     along_[0] = dot(v, curve.control[0] - start);
     // A coefficient errs by 3u of |v|_1 |power|, Horner's rule by 2u a step.
-    error_ = bernstein_.b[0].error + scale.inflation * (2.0 * n + 4.1) * u * size;
+    error_ = first.error + scale.inflation * (2.0 * n + 4.1) * u * size_;
     along_slope_ = norm_1(v) * curve.speed;
   } else {
     // Coefficient j is the sum of power[k] on^(k - 1 - j) over k > j: with 2u a step and what the
     // powers err by (2 n + 3)u; all of them together sum at most n |v|_1 reach.
     for (Powers* p : {&across_, &along_}) {
-      for (std::size_t k = degree_ - 1; k > 0; --k) (*p)[k] += on * (*p)[k + 1];
-      for (std::size_t k = 0; k < degree_; ++k) (*p)[k] = (*p)[k + 1];
-      (*p)[degree_] = 0.0;
+      for (std::size_t k = degree - 1; k > 0; --k) (*p)[k] += on * (*p)[k + 1];
+      for (std::size_t k = 0; k < degree; ++k) (*p)[k] = (*p)[k + 1];
+      (*p)[degree] = 0.0;
     }
-    --degree_;
-    std::array<NumberWithError, most + 1> c;
-    for (std::size_t k = 0; k <= degree_; ++k)
-      c[k] = {across_[k], scale.inflation * (2.0 * n + 3.1) * u * size};
-    bernstein_ = bernstein_form<most>(c, degree_, share_of);
-    for (std::size_t k = 0; k <= degree_; ++k)
-      bernstein_.b[k].error +=
-          scale.inflation * 7.1 * u * n * size;  // roundings count whatever the inflation is
-    error_ = scale.inflation * (4.0 * n + 4.1) * u * n * size;
-    along_slope_ = n * n * size;
+    error_ = scale.inflation * (4.0 * n + 4.1) * u * n * size_;
+    along_slope_ = n * n * size_;
   }
-  bernstein_.degree = degree_;
+  for (std::size_t k = 1; k <= degree; ++k) rates_[k] = static_cast<double>(k) * across_[k];
+}
+
+template <std::size_t degree>
+BernsteinPolynomial<NumberWithError, most> Line<degree>::bernstein() const {
+  constexpr double u = unit_roundoff, n = degree;
+  if (!stands()) {
+    BernsteinPolynomial<NumberWithError, most> g;
+    g.degree = degree;
+    for (std::size_t i = 0; i <= degree; ++i) g.b[i] = coefficient(i);
+    return g;
+  }
+  std::array<NumberWithError, most + 1> c;
+  for (std::size_t k = 0; k < degree; ++k)
+    c[k] = {across_[k], scale_.inflation * (2.0 * n + 3.1) * u * size_};
+  auto g = bernstein_form<most>(c, degree - 1, share_of);
+  for (std::size_t k = 0; k < degree; ++k)
+    g.b[k].error += scale_.inflation * 7.1 * u * n * size_;  // roundings count whatever it is
+  return g;
 }
 
 /// Most curves that are asked are missed or lie behind, and most of those that flights begin on are
 /// left for good: by signs alone.
-bool surely_missed(const BezierForm& curve, Vector start, Vector v, const FlightScale& scale,
-                   double on) {
-  constexpr double u = unit_roundoff;
-  const bool stands = on >= 0.0;
+template <std::size_t degree>
+bool Line<degree>::surely_missed() const {
   double least = HUGE_VAL, largest = -HUGE_VAL, ahead = -HUGE_VAL, farthest = 0.0;
   // Standing on the curve g / (u - on) = v x (a mean of x'), and x' lies in the hull of the
   // differences of control points; there it is negative.
-  for (std::size_t i = stands ? 1 : 0; i <= curve.degree; ++i) {
-    const Vector d = curve.control[i] - (stands ? curve.control[i - 1] : start);
-    const double g = cross(v, d);
+  for (std::size_t i = stands() ? 1 : 0; i <= degree; ++i) {
+    const Vector d = curve_.control[i] - (stands() ? curve_.control[i - 1] : start_);
+    const double g = cross(v_, d);
     least = std::min(least, g);
     largest = std::max(largest, g);
-    ahead = std::max(ahead, dot(v, d));
+    ahead = std::max(ahead, dot(v_, d));
     farthest = std::max(farthest, norm_1(d));
   }
-  const double error =
-      scale.inflation * 1.01 * norm_1(v) * ((stands ? 0.0 : scale.delta) + 4.1 * u * farthest);
-  return largest < -error || (!stands && (least > error || ahead < -error));
+  const double error = scale_.inflation * 1.01 * norm_1(v_) *
+                       ((stands() ? 0.0 : scale_.delta) + 4.1 * unit_roundoff * farthest);
+  return largest < -error || (!stands() && (least > error || ahead < -error));
 }
 
-CurveExit Line::exit_at(double u, double spread) const {
+template <std::size_t degree>
+CurveExit Line<degree>::exit_at(double u, double spread) const {
   double along = value(along_, u);
   double error = error_ + along_slope_ * spread;
   if (stands()) {
@@ -161,7 +199,9 @@ constexpr ProductWeights product_weight;
 
 /// A Larmor circle: the side of the flight on which x(u) lies, 2 v x d + omega d.d with
 /// d = x(u) - start, rises where the flight leaves. Standing on the curve d is u - on times a
-/// polynomial q, and the side divided by u - on is 2 v x q + omega (u - on) q.q.
+/// polynomial q, whose highest power is none, and the side divided by u - on is
+/// 2 v x q + omega (u - on) q.q.
+template <std::size_t degree>
 class LarmorCircle {
  public:
   LarmorCircle(const BezierForm& curve, Vector start, Vector v, double omega,
@@ -169,14 +209,29 @@ class LarmorCircle {
 
   bool stands() const { return on_ >= 0.0; }
   double on() const { return on_; }
-  const BernsteinPolynomial<NumberWithError, 2 * most>& bernstein() const { return bernstein_; }
+  BernsteinPolynomial<NumberWithError, 2 * most> bernstein() const;
+  /// Not standing on the curve. The direction of the circle about its centre changes along it.
+  Course course() const {
+    const Vector along = v_ + omega_ * right(control_[0]);
+    Steps steps;
+    double longest = 0.0;
+    for (std::size_t i = 0; i < degree; ++i) {
+      const Vector step = control_[i + 1] - control_[i];
+      steps.add(cross(along, step));
+      longest = std::max(longest, norm_1(step));
+    }
+    const double turn = 1.42 * std::fabs(omega_) * curve_.reach;
+    return {steps.trend(turn * longest + 6.0 * coefficient_error_), at_end(control_[0]),
+            at_end(control_[degree]), coefficient_error_};
+  }
+  bool surely_missed() const { return false; }
   double error() const { return error_; }
   double value(double u) const {
     return side_of_flight(v_, offset(u), stands() ? omega_ * (u - on_) : omega_);
   }
   Local at(double u) const {
-    Vector d = power_[degree_], slope;
-    for (std::size_t k = degree_; k-- > 0;) {
+    Vector d = power_[degree], slope;
+    for (std::size_t k = degree; k-- > 0;) {
       slope = d + u * slope;
       d = power_[k] + u * d;
     }
@@ -189,79 +244,88 @@ class LarmorCircle {
 
  private:
   Vector offset(double u) const {
-    Vector d = power_[degree_];
-    for (std::size_t k = degree_; k-- > 0;) d = power_[k] + u * d;
+    Vector d = power_[degree];
+    for (std::size_t k = degree; k-- > 0;) d = power_[k] + u * d;
     return d;
   }
+  double at_end(Vector d) const {
+    const double g = cross(v_, d);
+    return (g + g) + omega_ * dot(d, d);
+  }
 
+  const BezierForm& curve_;
   Vector v_;
   double omega_, on_;
-  std::size_t degree_;                    // of d or q
-  std::array<Vector, most + 1> power_{};  // of d or q
-  double speed_1_, off_ = 0.0;            // |v|_1; error of a coordinate of d or q
-  double offset_slope_ = 0.0;             // bounds the derivative of a coordinate
-  double error_ = 0.0;                    // of a value
-  BernsteinPolynomial<NumberWithError, 2 * most> bernstein_;
+  std::array<Vector, most + 1> power_, control_{};  // of d or q
+  double speed_1_, off_ = 0.0;                      // |v|_1; error of a coordinate of d or q
+  double offset_slope_ = 0.0;                       // bounds the derivative of a coordinate
+  double error_ = 0.0, coefficient_error_ = 0.0;    // of a value; in Bernstein form
 };
 
-LarmorCircle::LarmorCircle(const BezierForm& curve, Vector start, Vector v, double omega,
-                           const FlightScale& scale, double on)
-    : v_(v), omega_(omega), on_(on), degree_(curve.degree), speed_1_(norm_1(v)) {
-  constexpr double u = unit_roundoff;
-  const double n = static_cast<double>(degree_), w = std::fabs(omega);
-  std::array<Vector, most + 1> control;  // of d or q
-  power_ = curve.power;
+template <std::size_t degree>
+LarmorCircle<degree>::LarmorCircle(const BezierForm& curve, Vector start, Vector v, double omega,
+                                   const FlightScale& scale, double on)
+    : curve_(curve), v_(v), omega_(omega), on_(on), power_(curve.power), speed_1_(norm_1(v)) {
+  constexpr double u = unit_roundoff, n = degree;
+  const double w = std::fabs(omega);
   if (!stands()) {
-    for (std::size_t i = 0; i <= degree_; ++i) control[i] = curve.control[i] - start;
-    power_[0] = control[0];
+    for (std::size_t i = 0; i <= degree; ++i) control_[i] = curve.control[i] - start;
+    power_[0] = control_[0];
     offset_slope_ = curve.speed;
   } else {
-    for (std::size_t k = degree_ - 1; k > 0; --k) power_[k] = power_[k] + on * power_[k + 1];
-    for (std::size_t k = 0; k < degree_; ++k) power_[k] = power_[k + 1];
-    power_[degree_--] = {};
+    for (std::size_t k = degree - 1; k > 0; --k) power_[k] = power_[k] + on * power_[k + 1];
+    for (std::size_t k = 0; k < degree; ++k) power_[k] = power_[k + 1];
+    power_[degree] = {};
     const auto share = [](Vector c, int a, int b) { return (static_cast<double>(a) / b) * c; };
-    control = bernstein_form<most>(power_, degree_, share).b;
+    control_ = bernstein_form<most>(power_, degree - 1, share).b;
     offset_slope_ = 0.5 * n * curve.speed;
   }
   double reach = 0.0;
-  for (std::size_t i = 0; i <= degree_; ++i) reach = std::max(reach, norm_1(control[i]));
+  for (std::size_t i = 0; i <= degree; ++i) reach = std::max(reach, norm_1(control_[i]));
   // docs/physics/exactness.md, Bézier curves: a coordinate of d and of q, coefficients, values.
   const double more = scale.inflation;
   off_ = more * (stands() ? (4.0 * n + 4.1) * u * curve.speed
                           : scale.delta + u * (2.1 * reach + 2.1 * n * curve.reach));
   const double side_slope = 2.01 * (speed_1_ + w * (reach + off_));
   error_ = side_slope * (off_ + more * 5.2 * u * reach);
-  const double error = side_slope * (stands() ? off_ + more * 13.1 * u * reach
+  coefficient_error_ = side_slope * (stands() ? off_ + more * 13.1 * u * reach
                                               : more * (scale.delta + 9.1 * u * reach));
-
-  std::array<double, most + 1> g;
-  for (std::size_t i = 0; i <= degree_; ++i) g[i] = cross(v, control[i]);
-  std::array<double, 2 * most + 1> across{}, square{};
-  for (std::size_t i = 0; i <= degree_; ++i)
-    for (std::size_t j = i; j <= degree_; ++j) {
-      const double weight = (i == j ? 1.0 : 2.0) * product_weight(degree_, i, j);
-      across[i + j] += weight * (g[i] + g[j]);
-      square[i + j] += weight * dot(control[i], control[j]);
-    }
-  bernstein_.degree = 2 * degree_ + (stands() ? 1 : 0);
-  if (!stands()) {
-    for (std::size_t k = 0; k <= bernstein_.degree; ++k)
-      bernstein_.b[k] = {across[k] + omega * square[k], error};
-  } else {
-    // Times u - on, which is -on at 0 and 1 - on at 1.
-    const double all = static_cast<double>(bernstein_.degree);
-    for (std::size_t k = 0; k <= bernstein_.degree; ++k) {
-      double sum = 0.0;
-      if (k < bernstein_.degree)
-        sum = (all - static_cast<double>(k)) / all * (across[k] - omega * on * square[k]);
-      if (k > 0)
-        sum += static_cast<double>(k) / all * (across[k - 1] + omega * (1.0 - on) * square[k - 1]);
-      bernstein_.b[k] = {sum, error};
-    }
-  }
 }
 
-CurveExit LarmorCircle::exit_at(double u, double spread) const {
+template <std::size_t degree>
+BernsteinPolynomial<NumberWithError, 2 * most> LarmorCircle<degree>::bernstein() const {
+  const std::size_t n = stands() ? degree - 1 : degree;
+  std::array<double, most + 1> g;
+  for (std::size_t i = 0; i <= n; ++i) g[i] = cross(v_, control_[i]);
+  std::array<double, 2 * most + 1> across{}, square{};
+  for (std::size_t i = 0; i <= n; ++i)
+    for (std::size_t j = i; j <= n; ++j) {
+      const double weight = (i == j ? 1.0 : 2.0) * product_weight(n, i, j);
+      across[i + j] += weight * (g[i] + g[j]);
+      square[i + j] += weight * dot(control_[i], control_[j]);
+    }
+  BernsteinPolynomial<NumberWithError, 2 * most> p;
+  p.degree = 2 * n + (stands() ? 1 : 0);
+  if (!stands()) {
+    for (std::size_t k = 0; k <= p.degree; ++k)
+      p.b[k] = {across[k] + omega_ * square[k], coefficient_error_};
+    return p;
+  }
+  // Times u - on, which is -on at 0 and 1 - on at 1.
+  const double all = static_cast<double>(p.degree);
+  for (std::size_t k = 0; k <= p.degree; ++k) {
+    double sum = 0.0;
+    if (k < p.degree)
+      sum = (all - static_cast<double>(k)) / all * (across[k] - omega_ * on_ * square[k]);
+    if (k > 0)
+      sum += static_cast<double>(k) / all * (across[k - 1] + omega_ * (1.0 - on_) * square[k - 1]);
+    p.b[k] = {sum, coefficient_error_};
+  }
+  return p;
+}
+
+template <std::size_t degree>
+CurveExit LarmorCircle<degree>::exit_at(double u, double spread) const {
   const Vector d = offset(u);
   const double size = norm_1(d), off = off_ + offset_slope_ * spread;
   const double along = dot(v_, d), along_error = speed_1_ * (off + 2.1 * unit_roundoff * size);
@@ -282,101 +346,34 @@ CurveExit LarmorCircle::exit_at(double u, double spread) const {
               1.1 * unit_roundoff * std::fabs(kappa)};
 }
 
-/// Isolates the roots of a flight's side and keeps the first exit.
-template <class Path>
-class Search {
- public:
-  explicit Search(const Path& path) : path_(path) {}
-
-  CurveExit first() {
-    found_.leaves = Sign::negative;
-    const bool decided = isolate(path_.bernstein(), 0.0, 1.0, true, 0,
-                                 [this](const auto& p, double from, double to, int depth) {
-                                   return this->look(p, from, to, depth);
-                                 });
-    if (!decided) found_.leaves = Sign::undecided;
-    return found_;
+/// Calls `found` with the curve's degree, known to the compiler.
+template <class Found>
+CurveExit with_degree(const BezierForm& curve, const Found& found) {
+  switch (curve.degree) {
+    case 2:
+      return found(std::integral_constant<std::size_t, 2>());
+    case 3:
+      return found(std::integral_constant<std::size_t, 3>());
+    case 4:
+      return found(std::integral_constant<std::size_t, 4>());
+    default:
+      return found(std::integral_constant<std::size_t, 5>());
   }
-
- private:
-  template <class Polynomial>
-  std::optional<bool> look(const Polynomial& p, double from, double to, int depth) {
-    const SignChanges roots = sign_changes(p, [](const NumberWithError& x) { return x.sign(); });
-    if (roots.first == Sign::undecided || roots.last == Sign::undecided) return false;
-    if (roots.most == 0) return true;
-    if (roots.least == 1 && roots.most == 1) {
-      const bool rises = roots.first == Sign::negative;
-      if (!rises && !path_.stands()) return true;
-      return add(p.b[0].value, p.b[p.degree].value, from, to, rises);
-    }
-    if (depth == deepest) return false;
-    return std::nullopt;
-  }
-  bool add(double first, double last, double from, double to, bool rises);
-
-  const Path& path_;
-  CurveExit found_;
-};
-
-/// The one root in [from, to], where the sign changes between the values `first` and `last`, if the
-/// flight leaves there.
-template <class Path>
-bool Search<Path>::add(double first, double last, double from, double to, bool rises) {
-  double low = from, high = to;
-  double u = from + (to - from) * (first / (first - last));
-  for (int i = 0; i < 100; ++i) {
-    const Local here = path_.at(u);
-    if (here.value == 0.0) break;
-    ((here.value < 0.0) == rises ? low : high) = u;
-    double next = u - here.value / here.slope;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    const double step = std::fabs(next - u);
-    u = next;
-    if (step <= 0x1p-52 * u) break;  // wherever it stops: signs about it decide below
-  }
-  // Outwards until the signs are certain: then the root is between.
-  const double error = path_.error(), before = rises ? -1.0 : 1.0;
-  double width = 2.0 * error / std::fabs(path_.at(u).slope) + 4.0 * unit_roundoff;
-  for (;; width *= 4.0) {
-    low = std::fmax(from, u - width);
-    high = std::fmin(to, u + width);
-    const bool starts = low == from || before * path_.value(low) > error,
-               ends = high == to || -before * path_.value(high) > error;
-    if (starts && ends) break;
-    if (!(width < 1.0)) return false;
-  }
-  // Along a wall that is grazed the place is hidden by rounding: the exact stage gives it. Both
-  // stages decide by signs that are certain, so that the bound chooses the stage alone:
-  // with it u is off by 2^-24 of the piece at most.
-  const double spread = std::fmax(u - low, high - u);
-  if (spread > 0x1p-24) return false;
-  if (path_.stands()) {
-    // Beyond the start a root is left through where the quotient by u - on rises, before it where
-    // that falls.
-    if (low <= path_.on() && high >= path_.on()) return false;
-    if (rises != (u > path_.on())) return true;
-  }
-  const CurveExit exit = path_.exit_at(u, spread);
-  if (exit.leaves != Sign::positive) return exit.leaves == Sign::negative;
-  if (found_.leaves == Sign::positive) {
-    if (!(std::fabs(exit.place - found_.place) > exit.error + found_.error)) return false;
-    if (Path::is_before(found_.place, exit.place)) return true;
-  }
-  found_ = exit;
-  return true;
 }
 
 }  // namespace
 
 CurveExit first_exit(const BezierForm& curve, Vector start, Vector velocity,
                      const FlightScale& scale, double on) {
-  if (surely_missed(curve, start, velocity, scale, on)) return {.leaves = Sign::negative};
-  return Search(Line(curve, start, velocity, scale, on)).first();
+  return with_degree(
+      curve, [&](auto n) { return first_exit_of(Line<n()>(curve, start, velocity, scale, on)); });
 }
 
 CurveExit first_exit(const BezierForm& curve, Vector start, Vector velocity, double omega,
                      const FlightScale& scale, double on) {
-  return Search(LarmorCircle(curve, start, velocity, omega, scale, on)).first();
+  return with_degree(curve, [&](auto n) {
+    return first_exit_of(LarmorCircle<n()>(curve, start, velocity, omega, scale, on));
+  });
 }
 
 }  // namespace carom::geometry
