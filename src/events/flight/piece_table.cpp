@@ -362,12 +362,12 @@ void PieceTable::Preparation::make_grid(bool edges) {
         const Vector d = curve.control[i] - middle;
         r2 = std::max(r2, 1.0001 * dot(d, d));
       }
-      near.push_back({middle.x, middle.y, r2, 0.0, piece, p.offset, true, false});
+      near.push_back({middle.x, middle.y, r2, 0.0, piece, p.offset, true, false, p.curve});
       continue;
     }
     const bool disc = p.closed && p.kind == CurveKind::circle;
     near.push_back({w.centre.x, w.centre.y, w.r2, w.centre_error, piece, p.offset, disc,
-                    disc && w.orientation < 0});
+                    disc && w.orientation < 0, p.curve});
   }
 }
 

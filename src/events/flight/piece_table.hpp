@@ -139,6 +139,7 @@ struct PieceTable {
     double x, y, r2, centre_error;
     int piece, offset;
     bool disc, domain_outside;
+    int curve;  ///< of the piece
   };
   const PieceData& piece(int number) const { return data[static_cast<std::size_t>(number)]; }
 
