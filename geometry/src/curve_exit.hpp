@@ -76,7 +76,7 @@ class Search {
     found_.leaves = Sign::negative;
     const bool decided = isolate(path_.bernstein(), 0.0, 1.0, true, 0,
                                  [this](const auto& p, double from, double to, int depth) {
-                                   return look(p, from, to, depth);
+                                   return this->look(p, from, to, depth);
                                  });
     if (!decided) found_.leaves = Sign::undecided;
     return found_;

@@ -209,7 +209,7 @@ class ChainTree {
 
   /// Are both on one side, farther off than `near`?
   static bool beside(const Seen& from, const Seen& to, double near) {
-    return (std::min(from.side, to.side) > near) | (std::max(from.side, to.side) < -near);
+    return std::min(from.side, to.side) > near || std::max(from.side, to.side) < -near;
   }
   static double length(geometry::Vector v) { return std::sqrt(dot(v, v)); }
   double reach_from(geometry::Vector start) const {
@@ -338,7 +338,7 @@ class ChainTree {
     double last_side = to.side;
     while (!(from.side < -flight.error()) && first > least) from = flight.see(joints[--first]);
     while (!(last_side > flight.error()) && end < most) last_side = flight.see(joints[++end]).side;
-    const bool certain = (from.side < -flight.error()) & (last_side > flight.error()),
+    const bool certain = from.side < -flight.error() && last_side > flight.error(),
                crossed = certain && end == first + 1;
     if (crossed && flight.behind(from, to, flight.near(pieces_[first]))) return;
     for (; first < end; ++first)
