@@ -103,7 +103,7 @@ TEST(ChainTree, LeavesOutNoExit) {
     }
   }
   EXPECT_LT(kept_in_all, 3 * flights);
-  EXPECT_GT(5 * alone, flights);
+  EXPECT_GT(10 * alone, flights);  // nearly all in smooth curves
 }
 
 }  // namespace carom::tests
