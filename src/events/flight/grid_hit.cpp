@@ -4,6 +4,7 @@
 
 #include "base/index.hpp"
 #include "carom/geometry/hull.hpp"
+#include "events/flight/chain_tree.hpp"
 #include "events/flight/crossing.hpp"
 #include "events/flight/next_hit.hpp"
 

@@ -10,6 +10,7 @@
 #include "carom/base/error.hpp"
 #include "carom/geometry/hull.hpp"
 #include "carom/geometry/lattice_copies.hpp"
+#include "events/flight/chain_tree.hpp"
 #include "events/flight/crossing.hpp"
 #include "events/flight/piece_table.hpp"
 #include "table/thin_walls.hpp"

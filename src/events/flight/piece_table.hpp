@@ -14,13 +14,14 @@
 #include "carom/events/decisions.hpp"
 #include "carom/geometry/exact_flight.hpp"
 #include "carom/table/table.hpp"
-#include "events/flight/chain_tree.hpp"
 #include "events/flight/crossing.hpp"
 #include "events/flight/enclosure.hpp"
 #include "events/flight/flight.hpp"
 #include "events/flight/wall_grid.hpp"
 
 namespace carom::events {
+
+class ChainTree;
 
 struct PieceTable {
   /// `edges`: with the edges of the lattice cell, and flights start in the domain (else anywhere).
