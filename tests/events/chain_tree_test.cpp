@@ -7,6 +7,7 @@
 #include <set>
 
 #include "carom/table/make.hpp"
+#include "events/flight/chain_tree.hpp"
 #include "events/flight/piece_table.hpp"
 #include "random_tables.hpp"
 
