@@ -82,7 +82,7 @@ function bars(x: number[], y: number[]): ReturnType<Kind["plot"]> {
   return {
     options: {
       scales: { x: { time: false }, y: { range: (_u, _min, max) => [0, 1.1 * max] } },
-      series: [{ label: "exponent of an orbit" }, { label: "orbits", stroke: colours.accent, width: 1.2, fill: colours.rule,
+      series: [{ label: "λ of an orbit" }, { label: "orbits", stroke: colours.accent, width: 1.2, fill: colours.rule,
         paths: uPlot.paths.stepped!({ align: 1 }), points: { show: false } }],
     },
     data: [x, y],
@@ -186,7 +186,7 @@ const flights: Kind = {
     facts.push(["flights", count(between_hits.flights)]);
     return facts;
   },
-  plot: ({ free_paths: { between_hits } }) => longer(between_hits.bins, "length; fraction that is longer", between_hits.tail),
+  plot: ({ free_paths: { between_hits } }) => longer(between_hits.bins, "length; P(longer)", between_hits.tail),
 };
 
 /** How long orbits stay away from a wall. */
@@ -206,7 +206,7 @@ function returns(wall: string): Kind {
       facts.push(["excursions", count(excursions)]);
       return facts;
     },
-    plot: ({ return_times, tail }) => longer(return_times, "time; fraction that is longer", tail),
+    plot: ({ return_times, tail }) => longer(return_times, "time; P(longer)", tail),
   };
 }
 
@@ -308,25 +308,26 @@ class Panel {
     const isLogarithmic = options.scales?.x?.distr === 3;
     // Of a logarithmic axis: powers of ten only, so that few lines are drawn.
     const powers: Partial<uPlot.Axis> = {
-      splits: (_u, _axis, min, max) => {
+      splits: (plot, which, min, max) => {
         const [low, high] = [Math.ceil(Math.log10(min) - 1e-9), Math.floor(Math.log10(max) + 1e-9)];
         if (Math.log10(max / min) < 1.6) {
           return [1, 2, 5].flatMap((m) => Array.from({ length: high - low + 2 }, (_, i) => m * 10 ** (low - 1 + i)))
             .filter((v) => v >= min && v <= max).sort((a, b) => a - b);
         }
-        const step = Math.max(1, Math.ceil((high - low) / 5));
+        const most = which === 0 ? Math.max(1, (plot.width - 70) / 36) : 5; // labels that find room
+        const step = Math.max(1, Math.ceil((high - low) / most));
         return Array.from({ length: Math.max(0, Math.floor((high - low) / step) + 1) }, (_, i) => 10 ** (high - i * step)).reverse();
       },
       values: (_u, splits) => splits.map(label),
       filter: (_u, splits) => splits,
     };
-    const plainly: Partial<uPlot.Axis> = { values: (_u, splits) => splits.map((v) => plain(v)), space: 60 };
+    const plainly: Partial<uPlot.Axis> = { values: (_u, splits) => splits.map((v) => plain(v)), space: 36 };
     this.plot?.destroy();
     this.plot = new uPlot({
       ...this.room(),
       legend: { show: false },
       cursor: { show: false },
-      padding: [8, 12, 0, 0],
+      padding: [8, 16, 0, 0],
       ...options,
       axes: [
         { ...axis, label: options.series?.[0]?.label as string, ...(isLogarithmic ? powers : plainly) },
