@@ -40,6 +40,24 @@ carom_flint_calls:
 	.data
 carom_flint_calls_end:
 
+// The one table that inline functions of FLINT 2 read, where they know no instruction that counts leading zeros: the bits of
+// each number below 128, and one.
+#if defined __aarch64__
+	.section .rodata
+	.globl	__flint_clz_tab
+	.hidden	__flint_clz_tab
+	.type	__flint_clz_tab, %object
+	.size	__flint_clz_tab, 128
+__flint_clz_tab:
+	.byte	1, 2
+	.fill	2, 1, 3
+	.fill	4, 1, 4
+	.fill	8, 1, 5
+	.fill	16, 1, 6
+	.fill	32, 1, 7
+	.fill	64, 1, 8
+#endif
+
 // Opens FLINT, keeping what may hold arguments, and begins anew.
 	.text
 .Lunopened:
