@@ -1,5 +1,6 @@
 // Flights among many walls: only those are looked at whose cells the flight passes.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/index.hpp"
@@ -16,37 +17,86 @@ namespace {
 
 using base::at;
 
-/// Asks for an object's memory that is needed soon: the answer comes while other work goes on.
+/// Asks for the first lines of an object's memory, which are needed soon: they come while other
+/// work goes on.
 template <class Object>
-[[gnu::always_inline]] inline void fetch(const Object& object) {
+[[gnu::always_inline]] inline void fetch(const Object& object, std::size_t lines) {
   constexpr std::size_t line = 64;
   const char* const begin = reinterpret_cast<const char*>(&object);
-  for (std::size_t i = 0; i < sizeof object; i += line) __builtin_prefetch(begin + i);
+  for (std::size_t i = 0; i < lines; ++i) __builtin_prefetch(begin + i * line);
 }
 
 }  // namespace
 
-/// Does a line enter a disc from outside? Negative: it does not, or cannot leave the domain there.
-/// Positive: it does, and `first` has been compared with it. Undecided: this is for the filter to
-/// tell.
-template <bool cells>
+/// What a flight asks of the discs about two pieces.
+struct HitFinder::NearFlight {
+  base::Pair x, y, vx, vy, omega;
+  base::Pair bound;   ///< of the error of v x d and v . d; in a field, of the side
+  base::Pair square;  ///< more than |v|^2, by what is rounded; in a field, four times that
+  base::Pair bend;    ///< in a field: more than its omega
+};
+
+template <bool larmor>
+[[gnu::always_inline]] inline HitFinder::NearFlight HitFinder::near_flight(const Flight& f) const {
+  const Origin& own = origins_[0];
+  FlightScale scale = own.scale;
+  scale.delta += t_.near_error;
+  const double bound = side_error(scale, t_.near_reach + norm_1(own.point));
+  return {base::both(own.point.x),
+          base::both(own.point.y),
+          base::both(f.velocity.x),
+          base::both(f.velocity.y),
+          base::both(f.omega),
+          base::both(larmor ? bound : 0.5 * bound),
+          base::both((larmor ? 4.01 : 1.01) * f.square_speed),
+          base::both(1.01 * scale.omega)};
+}
+
+/// Bit k: the flight is not certain to miss piece k of two.
+///
+/// A line misses a disc that it passes at a distance of more than the radius, or that lies behind;
+/// one that is an obstacle also where it goes away from the centre. A Larmor circle of radius R
+/// misses it where the distance D of the centres is |D^2 - R^2| > 2 R r + r^2; omega (D^2 - R^2) is
+/// the side of the disc's centre.
+template <bool larmor>
+[[gnu::always_inline]] inline unsigned HitFinder::not_missed(const NearFlight& f,
+                                                             const PieceTable::Near& two) {
+  using base::magnitude, base::signs;
+  const base::Pair x = two.x - f.x, y = two.y - f.y, r2 = magnitude(two.r2),
+                   across = f.vx * y - f.vy * x;
+  if constexpr (larmor) {
+    const base::Pair side = base::both(2.0) * across + f.omega * (x * x + y * y),
+                     beyond = magnitude(side) - f.bound - f.bend * r2;
+    return ~(signs(beyond * beyond > f.square * r2) & ~signs(beyond)) & 3u;
+  }
+  const base::Pair back = -(f.vx * x + f.vy * y),
+                   beyond = larger(magnitude(across), back) - f.bound;
+  const unsigned off = signs(beyond * beyond > f.square * r2) & ~signs(beyond),
+                 leaving = signs(back > f.bound) & ~signs(two.r2);
+  return ~(off | leaving) & 3u;
+}
+
+/// Does a line enter an obstacle, a disc? Negative: it does not. Positive: it does, and `first` has
+/// been compared with it. Undecided: this is for the filter to tell.
 [[gnu::always_inline]] inline Sign HitFinder::meets_disc(const Flight& f,
-                                                         const PieceTable::Near& disc,
-                                                         FirstDisc& first) const {
-  const bool on_wall = disc.piece == f.start_piece;
-  if (on_wall)
-    return disc.domain_outside ? Sign::negative : Sign::undecided;  // a line leaves a disc for good
-  const Origin& origin = origins_[cells ? at(disc.offset) : 0];
-  const Vector e = origin.point - Vector{disc.x, disc.y};
-  const Quadratic<double> q = circle_quadratic(e, disc.r2, f.velocity, f.square_speed);
-  const QuadraticError error = circle_error(origin.scale, norm_1(e), disc.centre_error, disc.r2);
+                                                         const PieceTable::Near& two,
+                                                         std::size_t which, FirstDisc& first) {
+  const int piece = two.piece[which], offset = two.offset[which];
+  if (piece == f.start_piece) return Sign::negative;  // a line leaves a disc for good
+  const int curve = offset == 0 ? piece : t_.data[at(piece)].curve;
+  const Origin& origin = offset == 0 ? origins_[0] : seen_from(f, offset);
+  const Vector centre =
+      offset == 0 ? Vector{two.x[which], two.y[which]} : t_.curves[at(curve)].centre;
+  const double r2 = two.r2[which];
+  const Vector e = origin.point - centre;
+  const Quadratic<double> q = circle_quadratic(e, r2, f.velocity, f.square_speed);
+  const QuadraticError error = circle_error(origin.scale, norm_1(e), t_.near_error, r2);
   // Going away: the distance from the centre grows from here on, and a disc is not entered.
-  if (q.b > error.b && (disc.domain_outside || q.a > error.a)) return Sign::negative;
+  if (q.b > error.b) return Sign::negative;
   const double discriminant = discriminant_of(q), margin = discriminant_error(q, error);
   if (discriminant < -margin) return Sign::negative;
-  if (!(disc.domain_outside && q.b < -error.b && q.a > error.a && discriminant > margin))
-    return Sign::undecided;
-  if (disc.piece == first.piece) return Sign::positive;  // again, in another cell
+  if (!(q.b < -error.b && q.a > error.a && discriminant > margin)) return Sign::undecided;
+  if (piece == first.piece) return Sign::positive;  // again, in another cell
   const double root = std::sqrt(discriminant), unit = root - q.b, kappa = unit / q.a;
   const double kappa_spread = kappa_error(q, error, {discriminant, root, kappa});
   if (first.piece >= 0) {
@@ -54,24 +104,11 @@ template <bool cells>
     if (!(std::fabs(gap) > kappa_spread + first.error)) return Sign::undecided;
     if (gap < 0.0) return Sign::positive;
   }
-  // The first so far: where it is hit, all of its curve is needed.
-  fetch(t_.curves[at(disc.curve)]);
-  fetch(t_.data[at(disc.piece)]);
-  first = {disc.piece, q.a, unit, kappa, kappa_spread};
+  // The first so far: what a hit on it needs.
+  fetch(t_.curves[at(curve)], 3);
+  fetch(t_.data[at(piece)], 1);
+  first = {piece, q.a, unit, kappa, kappa_spread};
   return Sign::positive;
-}
-
-/// Is a Larmor circle certain to miss a disc? With its radius R and the distance D of the centres
-/// that is so where |D^2 - R^2| > 2 R r + r^2; omega (D^2 - R^2) is the side of the disc's centre.
-bool HitFinder::misses_disc(const Flight& f, const PieceTable::Near& disc,
-                            const Origin& origin) const {
-  const Vector d = Vector{disc.x, disc.y} - origin.point;
-  FlightScale scale = origin.scale;
-  scale.delta += disc.centre_error;
-  // 1.01 and 4.01: roundings, and what the energy shell leaves of |v|^2.
-  const double side = std::fabs(side_of_flight(f.velocity, d, f.omega)),
-               beyond = side - side_error(scale, norm_1(d)) - 1.01 * scale.omega * disc.r2;
-  return beyond > 0.0 && beyond * beyond > 4.01 * f.square_speed * disc.r2;
 }
 
 /// On which side of the flight are the joints of some pieces?
@@ -144,20 +181,21 @@ bool HitFinder::filtered_in_grid(const Flight& f, Ahead& ahead) {
   double error = 0.0;
   FirstDisc disc;
   ahead = Ahead();
+  const NearFlight near = near_flight<larmor>(f);
   const auto visit = [&](int cell) {
-    const std::size_t end = t_.grid->first_entry(cell + 1);
-    for (std::size_t i = t_.grid->first_entry(cell); i < end; ++i) {
-      const PieceTable::Near& near = t_.near[i];
-      if (near.disc) {
-        if constexpr (larmor) {
-          if (misses_disc(f, near, origins_[cells ? at(near.offset) : 0])) continue;
-        } else if (meets_disc<cells>(f, near, disc) != Sign::undecided) {
+    const std::size_t end = t_.grid->first_pair(cell + 1);
+    for (std::size_t i = t_.grid->first_pair(cell); i < end; ++i) {
+      const PieceTable::Near& two = t_.near[i];
+      for (unsigned open = not_missed<larmor>(near, two); open != 0; open &= open - 1) {
+        const auto which = static_cast<std::size_t>(std::countr_zero(open));
+        if (!larmor && two.r2[which] > 0.0 && meets_disc(f, two, which, disc) != Sign::undecided)
           continue;
-        }
+        const int piece = two.piece[which];
+        if (seen_[at(piece)] == flights_) continue;
+        seen_[at(piece)] = flights_;
+        if (cells && two.offset[which] != 0) seen_from(f, two.offset[which]);
+        list_.push_back(piece);
       }
-      if (seen_[at(near.piece)] == flights_) continue;
-      seen_[at(near.piece)] = flights_;
-      list_.push_back(near.piece);
     }
   };
   const auto passed = [&](double kappa) {

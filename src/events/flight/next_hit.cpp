@@ -13,10 +13,12 @@ using namespace geometry;
 
 HitFinder::HitFinder(const PieceTable& pieces)
     : t_(pieces), origins_(t_.offsets.size()), left_(t_.data.size()) {
-  if (t_.grid) seen_.resize(t_.data.size());
+  if (!t_.grid) return;
+  seen_.resize(t_.data.size());
+  seen_offsets_.resize(t_.offsets.size());
 }
 
-void HitFinder::look_at_cells(const Flight& f) {
+void HitFinder::look_from_all(const Flight& f) {
   for (std::size_t k = 0; k < origins_.size(); ++k)
     origins_[k] = t_.origin_of(f, static_cast<int>(k));
 }
@@ -436,7 +438,7 @@ Ahead HitFinder::exact_next(const Flight& f, const std::vector<int>& pieces) con
 
 void HitFinder::next_of_all(const Flight& f, Ahead& ahead, DecisionCounts& counts) {
   const bool cells = t_.cells;
-  if (cells) look_from(f);
+  if (cells) look_from_all(f);
   if (f.omega == 0.0 ? (cells ? filtered<false, true>(f, ahead) : filtered<false, false>(f, ahead))
                      : (cells ? filtered<true, true>(f, ahead) : filtered<true, false>(f, ahead))) {
     ++counts.filter;

@@ -52,9 +52,10 @@ class HitFinder {
     own.scale.speed_1 = std::fabs(f.velocity.x) + std::fabs(f.velocity.y);
     own.scale.omega = std::fabs(f.omega);
     own.scale.inflation = t_.options.filter_inflation;
-    if (t_.cells && (t_.displaced || (f.cell.first | f.cell.second) != 0)) look_at_cells(f);
+    if (t_.cells && (f.cell.first | f.cell.second) != 0) own = t_.origin_of(f, 0);
   }
-  void look_at_cells(const Flight& flight);
+  /// The same from the cells of all offsets.
+  void look_from_all(const Flight& flight);
 
   // By double precision: false where a bound cannot tell.
   template <bool larmor, bool cells>
@@ -97,17 +98,33 @@ class HitFinder {
     int piece = -1;
     double time = 0.0, unit = 1.0, kappa = 0.0, error = 0.0;
   };
-  template <bool cells>
-  Sign meets_disc(const Flight& flight, const PieceTable::Near& disc, FirstDisc& first) const;
-  bool misses_disc(const Flight& flight, const PieceTable::Near& disc, const Origin& origin) const;
+  Sign meets_disc(const Flight& flight, const PieceTable::Near& two, std::size_t which,
+                  FirstDisc& first);
+  /// What a flight asks two pieces of a grid's list.
+  struct NearFlight;
+  template <bool larmor>
+  NearFlight near_flight(const Flight& flight) const;
+  template <bool larmor>
+  static unsigned not_missed(const NearFlight& flight, const PieceTable::Near& two);
+  /// The origin of an offset but the first, where a flight among many walls may not have needed it
+  /// yet.
+  const Origin& seen_from(const Flight& f, int offset) {
+    const auto k = static_cast<std::size_t>(offset);
+    if (seen_offsets_[k] != flights_) {
+      seen_offsets_[k] = flights_;
+      origins_[k] = t_.origin_of(f, offset);
+    }
+    return origins_[k];
+  }
   const std::vector<int>& pieces_on_way(const Flight& flight);
   template <class Visit, class Passed>
   void follow(const Flight& flight, const Visit& visit, const Passed& passed) const;
 
   const PieceTable t_;
-  std::vector<Origin> origins_;      // one an offset
-  std::vector<unsigned char> left_;  // is the joint on the left of the flight?
-  std::vector<std::uint32_t> seen_;  // a piece: the last flight that came near it
+  std::vector<Origin> origins_;              // one an offset
+  std::vector<unsigned char> left_;          // is the joint on the left of the flight?
+  std::vector<std::uint32_t> seen_;          // a piece: the last flight that came near it
+  std::vector<std::uint32_t> seen_offsets_;  // an offset: the last flight that asked for its origin
   std::uint32_t flights_ = 0;
   std::vector<int> list_;  // pieces on the way of a flight
 };

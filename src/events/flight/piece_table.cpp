@@ -42,7 +42,9 @@ class PieceTable::Preparation : public PieceTable::Shared {
   std::vector<Images> loops_that_reach() const;
   void find_ellipses();
   void find_enclosure(bool complement);
+  void find_within();
   void make_grid(bool edges);
+  void list_near(Vector first, Vector second);
   bool has_long_loops() const;
 
   PieceTable& made_;
@@ -59,7 +61,6 @@ PieceTable::PieceTable(const Table& the_table, DecisionOptions how, bool edges, 
   joints = shared_->joints;
   open = shared_->open;
   offsets = shared_->offsets;
-  holed = shared_->holed;
   discs = shared_->discs;
   near = shared_->near;
   exact = shared_->exact.get();
@@ -78,7 +79,6 @@ PieceTable::Preparation::Preparation(PieceTable& table_made, bool edges, bool co
       made_.thin = true;
     }
     end_normals.push_back(closed ? Vector{} : normal_at(wall.curve, end_parameter(wall.curve)));
-    holed.push_back(wall.holes.empty() ? 0 : 1);
   }
   offsets.push_back({});
   add_walls({}, complement, {});
@@ -98,6 +98,7 @@ PieceTable::Preparation::Preparation(PieceTable& table_made, bool edges, bool co
   find_ellipses();
   for (const PreparedCurve& c : curves) made_.reach = std::max(made_.reach, 1.01 * norm_1(c.from));
   for (PieceData& p : data) p.shape = &curves[at(p.curve)];  // curves is complete
+  if (made_.cells && edges) find_within();
   if (edges) find_enclosure(complement);
   if (static_cast<int>(data.size()) < made_.options.grid_from) return;
   make_grid(edges);
@@ -156,7 +157,8 @@ void PieceTable::Preparation::add_walls(Cell offset, bool complement,
     const int next = complement ? piece_of_previous : piece_of_next;
     const int previous = complement ? piece_of_next : piece_of_previous;
     if (index > 0) images.emplace(i, static_cast<int>(data.size()));
-    data.push_back({nullptr, i, i, index, next, previous, false, c.closed, c.kind});
+    data.push_back({nullptr, i, i, index, next, previous, false, c.closed, c.kind, false,
+                    !wall.holes.empty()});
     joints.push_back(c.from);
     if (!c.closed) open.push_back(static_cast<int>(data.size()) - 1);
     pieces_.push_back({complement ? reversed(wall.curve) : wall.curve, offset, next, false});
@@ -257,6 +259,26 @@ auto PieceTable::Preparation::loops_that_reach() const -> std::vector<Images> {
   return found;
 }
 
+/// Which walls are certain to lie inside of the cell: no flight from one of them begins elsewhere.
+void PieceTable::Preparation::find_within() {
+  for (std::size_t i = 0; i < table_.walls.size(); ++i) {
+    const PreparedCurve& w = curves[i];
+    const Box box = bounding_box(table_.walls[i].curve);
+    const bool disc = w.closed && w.kind == CurveKind::circle;
+    data[i].within = true;
+    for (std::size_t k = at(made_.first_edge); k < data.size(); ++k) {
+      const PreparedCurve& e = *data[k].shape;
+      const auto inside = [&](Vector x) { return geometry::cross(e.tangent, x - e.from); };
+      const double least =
+          disc ? inside(w.centre) - std::sqrt(w.r2)
+               : std::min({inside(box.low), inside(box.high), inside({box.low.x, box.high.y}),
+                           inside({box.high.x, box.low.y})});
+      // The rounding of this comparison is on the safe side, as for the images of walls.
+      data[i].within &= least > 32.0 * unit_roundoff * (2.0 * w.extent + 2.0 * norm_1(e.from));
+    }
+  }
+}
+
 /// A table is enclosed if one loop of convex pieces_, in their order, holds everything else, which
 /// is discs.
 void PieceTable::Preparation::find_enclosure(bool complement) {
@@ -294,14 +316,7 @@ void PieceTable::Preparation::find_enclosure(bool complement) {
   discs = std::move(others);
   made_.convex = discs.empty() && !made_.cells;
   made_.discs_within = made_.cells;
-  for (const int disc : discs)
-    for (const int edge : loop) {
-      const PreparedCurve& w = *data[at(disc)].shape;
-      const PreparedCurve& e = *data[at(edge)].shape;
-      // The rounding of this comparison is on the safe side, as for the images of walls.
-      const double gap = geometry::cross(e.tangent, w.centre - e.from) - std::sqrt(w.r2);
-      made_.discs_within &= gap > 32.0 * unit_roundoff * (2.0 * w.extent + 2.0 * norm_1(e.from));
-    }
+  for (const int disc : discs) made_.discs_within &= data[at(disc)].within;
   if (!made_.convex) return;
   Box box = bounding_box(table_.walls.front().curve);
   made_.without_ellipses = true;
@@ -350,25 +365,61 @@ void PieceTable::Preparation::make_grid(bool edges) {
     }
   }
   grid = std::make_unique<const WallGrid>(pieces_, first, second, geometry::hull_of(boxes));
-  near.reserve(grid->entries().size());
-  for (const int piece : grid->entries()) {
-    const PieceData& p = data[at(piece)];
+  list_near(first, second);
+}
+
+/// The disc of an obstacle that is one; about others a disc whose centre is a double. Each is then
+/// displaced.
+void PieceTable::Preparation::list_near(Vector first, Vector second) {
+  struct Disc {
+    Vector centre;
+    double r2 = 0.0;
+  };
+  std::vector<Disc> discs_about;
+  discs_about.reserve(data.size());
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    const PieceData& p = data[i];
     const PreparedCurve& w = *p.shape;
-    if (p.kind == CurveKind::bezier) {
-      // About its chord's middle, which is a double: all control points within.
-      const BezierForm& curve = *w.parametrisation.bezier;
-      const Vector middle = 0.5 * (w.from + w.to);
-      double r2 = 0.0;
-      for (std::size_t i = 0; i <= curve.degree; ++i) {
-        const Vector d = curve.control[i] - middle;
-        r2 = std::max(r2, 1.0001 * dot(d, d));
+    Disc disc{w.centre, -w.orientation * w.r2};
+    double error = w.centre_error;
+    if (!(p.closed && p.kind == CurveKind::circle)) {
+      const Box box = bounding_box(pieces_[i].curve);
+      disc.centre = 0.5 * (box.low + box.high);
+      disc.r2 = 0.0;
+      error = 0.0;
+      const auto reach_to = [&](Vector x) {
+        disc.r2 = std::min(disc.r2, -1.0001 * dot(x - disc.centre, x - disc.centre));
+      };
+      if (p.kind == CurveKind::bezier) {
+        const BezierForm& curve = *w.parametrisation.bezier;
+        for (std::size_t k = 0; k <= curve.degree; ++k) reach_to(curve.control[k]);
+      } else {
+        for (const double x : {box.low.x, box.high.x})
+          for (const double y : {box.low.y, box.high.y}) reach_to({x, y});
       }
-      near.push_back({middle.x, middle.y, r2, 0.0, piece, p.offset, true, false, p.curve});
-      continue;
     }
-    const bool disc = p.closed && p.kind == CurveKind::circle;
-    near.push_back({w.centre.x, w.centre.y, w.r2, w.centre_error, piece, p.offset, disc,
-                    disc && w.orientation < 0, p.curve});
+    const Cell c = offsets[at(p.offset)];
+    if (!(c == Cell{})) {
+      // As in WallGrid: two products and a sum, and the displaced coordinate.
+      disc.centre = disc.centre + table_.lattice->translation(c);
+      const double m = std::fabs(static_cast<double>(c.first)),
+                   n = std::fabs(static_cast<double>(c.second));
+      error += 4.0 * unit_roundoff * (m * norm_1(first) + n * norm_1(second) + norm_1(disc.centre));
+    }
+    made_.near_reach = std::max(made_.near_reach, 1.01 * norm_1(disc.centre));
+    made_.near_error = std::max(made_.near_error, error);
+    discs_about.push_back(disc);
+  }
+  const std::vector<int>& entries = grid->entries();
+  near.resize(entries.size() / 2);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    Near& two = near[i / 2];
+    const Disc& disc = discs_about[at(entries[i])];
+    two.x[i % 2] = disc.centre.x;
+    two.y[i % 2] = disc.centre.y;
+    two.r2[i % 2] = disc.r2;
+    two.piece[i % 2] = entries[i];
+    two.offset[i % 2] = data[at(entries[i])].offset;
   }
 }
 

@@ -5,12 +5,14 @@
 // are cheap. HitFinder (next_hit.hpp) has what is written during a flight.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
+#include "base/pair.hpp"
 #include "carom/events/decisions.hpp"
 #include "carom/geometry/exact_flight.hpp"
 #include "carom/table/table.hpp"
@@ -131,16 +133,18 @@ struct PieceTable {
     bool edge = false;
     bool closed = false;
     geometry::CurveKind kind = geometry::CurveKind::segment;
-    int ellipse = -1;  ///< arcs of one: the first of its walls
+    bool within = false;  ///< of a wall in its own cell: it touches none of the cell's edges
+    bool holed = false;   ///< its wall has holes
+    int ellipse = -1;     ///< arcs of one: the first of its walls
   };
-  /// An entry of a grid cell's list, with all that a flight asks of a disc: one place in memory for
-  /// what is seldom hit. `disc`: the piece is one, or a Bézier curve within one, which is then said
-  /// to have the domain inside; a flight that misses the disc misses both.
-  struct Near {
-    double x, y, r2, centre_error;
-    int piece, offset;
-    bool disc, domain_outside;
-    int curve;  ///< of the piece
+  /// Two entries of a grid cell's list, each a disc that the piece lies in, as seen from this cell
+  /// of the lattice: one line of memory for what is seldom hit.
+  struct alignas(64) Near {
+    base::Pair x, y;  ///< centre
+    /// Squared radius of a disc that is the piece and has the domain outside; else the negative of
+    /// that of a disc around the piece.
+    base::Pair r2;
+    std::array<int, 2> piece, offset;
   };
   const PieceData& piece(int number) const { return data[static_cast<std::size_t>(number)]; }
 
@@ -156,7 +160,6 @@ struct PieceTable {
   std::span<const geometry::Vector> joints;         ///< start of each piece in its own cell
   std::span<const int> open;                        ///< pieces that have joints
   std::span<const geometry::Cell> offsets;          ///< distinct displacements; the first is zero
-  std::span<const signed char> holed;               ///< a wall: has it holes?
   const geometry::ExactBoundary* exact = nullptr;   ///< the pieces for the exact stage
 
   // Convex tables.
@@ -170,6 +173,8 @@ struct PieceTable {
 
   const WallGrid* grid = nullptr;   ///< of tables with many walls, else null
   std::span<const Near> near;       ///< its lists
+  double near_reach = 0.0;          ///< bounds the l1 norm of all their centres …
+  double near_error = 0.0;          ///< … and their errors, a coordinate
   const ChainTree* tree = nullptr;  ///< of those among them with long loops, not on a lattice
   const std::vector<int>& all() const { return shared_->all; }  ///< numbers of all pieces
 
@@ -180,7 +185,6 @@ struct PieceTable {
     std::vector<geometry::Vector> joints;
     std::vector<int> open;
     std::vector<geometry::Cell> offsets;
-    std::vector<signed char> holed;
     std::vector<int> all, discs;
     std::vector<Near> near;
     std::vector<geometry::Vector> end_normals;  ///< a wall
@@ -241,7 +245,7 @@ struct PieceTable {
   f.velocity = velocity;
   f.cell.first = f.cell.second = 0;
   f.entry = -1;
-  if (!discs_within && (cells || !(u > 0.0))) return begin(f);
+  if (!discs_within && !(u > 0.0 && (!cells || piece(wall).within))) return begin(f);
   f.start_piece = wall;
   f.start_previous = -1;
 }
@@ -282,8 +286,7 @@ struct PieceTable {
     return;
   }
   w.arrive(end, landing.velocity, landing.at, ahead.u);
-  if (holed[static_cast<std::size_t>(landing.wall)] != 0)
-    landing.hole = hole_at(f, ahead, landing.at.u, counts);
+  if (piece(ahead.piece).holed) landing.hole = hole_at(f, ahead, landing.at.u, counts);
 }
 
 [[gnu::always_inline]] inline Sign PieceTable::inward(int wall, const geometry::PreparedCurve& w,

@@ -113,13 +113,16 @@ WallGrid::WallGrid(const std::vector<Piece>& pieces, Vector first, Vector second
     cells *= 4.0;
     crowd = finer;
   }
-  for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
-  list_.resize(starts_.back());
+  for (std::size_t i = 1; i < starts_.size(); ++i)
+    starts_[i] = starts_[i - 1] + (starts_[i] + 1) / 2 * 2;
+  list_.resize(starts_.back(), -1);
   std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
   for (std::size_t p = 0; p < reaches.size(); ++p)
     cover(reaches[p], [&](int i, int k) {
       list_[next[static_cast<std::size_t>(place(i, k))]++] = static_cast<int>(p);
     });
+  for (std::size_t i = 1; i < list_.size(); i += 2)
+    if (list_[i] < 0) list_[i] = list_[i - 1];
   find_clearances();
 }
 

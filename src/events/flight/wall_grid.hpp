@@ -88,7 +88,8 @@ class WallGrid {
   WallGrid(const std::vector<geometry::Piece>& pieces, geometry::Vector first,
            geometry::Vector second, const geometry::Box& within);
 
-  /// The pieces of a cell that was visited.
+  /// The pieces of a cell that was visited. They stand in pairs: an odd list ends with its last
+  /// piece twice.
   std::span<const int> pieces(int cell) const {
     const auto first = starts_[static_cast<std::size_t>(cell)],
                end = starts_[static_cast<std::size_t>(cell) + 1];
@@ -99,8 +100,8 @@ class WallGrid {
     const int cell = place(columns_.part(x.x), rows_.part(x.y));
     return cell < 0 ? std::span<const int>() : pieces(cell);
   }
-  /// The index of a cell's first entry among those of all cells, one after the other.
-  std::size_t first_entry(int cell) const { return starts_[static_cast<std::size_t>(cell)]; }
+  /// The index of a cell's first pair among those of all cells, one after the other.
+  std::size_t first_pair(int cell) const { return starts_[static_cast<std::size_t>(cell)] / 2; }
   const std::vector<int>& entries() const { return list_; }
   int columns() const { return columns_.parts(); }
   int rows() const { return rows_.parts(); }
