@@ -4,10 +4,10 @@
 namespace carom::tests {
 namespace {
 
-enum class Stage { filter, exact };
+enum class Stage { filter, exact, either };
 
 /// Runs a family: `make` fills in a start on a bench, or gives false. At least 99 % of a filter
-/// family must be decided by the filter, all of an exact one beyond it.
+/// family must be decided by the filter, all of an exact one beyond it, some of either by both.
 template <class MakeBench, class MakeStart>
 Tally run(const char* name, Stage stage, long count, MakeBench&& make_bench, MakeStart&& make,
           int per_table = 40, double share = 0.99) {
@@ -29,7 +29,10 @@ Tally run(const char* name, Stage stage, long count, MakeBench&& make_bench, Mak
   if (stage == Stage::filter)
     EXPECT_GE(tally.filter_share(), share) << name;
   else
-    EXPECT_EQ(tally.by_filter, 0) << name;
+    EXPECT_EQ(tally.by_filter > 0, stage == Stage::either) << name;
+  if (stage == Stage::either) {
+    EXPECT_LT(tally.filter_share(), 0.9) << name;
+  }
   return tally;
 }
 
@@ -302,10 +305,11 @@ TEST(Adversarial, ConcentricLarmorCircles) {
 
 TEST(Adversarial, NearlyEqualTimesAreOrdered) {
   // A flat obstacle just below the top: its near side and the wall behind it are met at nearly one
-  // time.
+  // time. Once one flight has shown which comes first, the joints tell others with the same ones on
+  // their right.
   for (const bool near : {true, false})
     run(
-        near ? "slit of 2^-51" : "slit of 1e-9", near ? Stage::exact : Stage::filter, count(),
+        near ? "slit of 2^-51" : "slit of 1e-9", near ? Stage::either : Stage::filter, count(),
         [&](Dice&) {
           const double gap = near ? 0x1p-51 : 1e-9;
           Table t = rectangle(4, 1 + 2 * gap);

@@ -41,6 +41,14 @@ inline constexpr double least_square = 0x1p-900;
       if (wall < 0 || !t_.enclosure.bent(wall)) return false;
     }
   }
+  return line_to(f, wall, ahead);
+}
+
+/// The hit of a line on the wall that it leaves through; of conics those about the domain.
+[[gnu::always_inline]] inline bool HitFinder::line_to(const Flight& f, int wall,
+                                                      Ahead& ahead) const {
+  using geometry::Vector;
+  const Vector v = f.velocity, origin = f.start;
   const geometry::PreparedCurve& w = t_.curves[static_cast<std::size_t>(wall)];
   base::Pair found;  // duration and kappa
   if (w.kind == geometry::CurveKind::segment) {

@@ -1,6 +1,6 @@
-// A convex loop of walls, and through which of them a flight leaves it: by signs of joints, two
-// joints at a time and without a branch, for which wall comes next is what a processor guesses
-// worst. docs/physics/exactness.md derives the rules and the bounds.
+// A loop of walls, and if it is convex through which of them a flight leaves it: by signs of
+// joints, two joints at a time and without a branch, for which wall comes next is what a processor
+// guesses worst. docs/physics/exactness.md derives the rules and the bounds.
 #pragma once
 
 #include <bit>
@@ -42,10 +42,13 @@ class Enclosure {
   int size() const { return size_; }
   bool bent(int wall) const { return (bent_ >> wall & 1) != 0; }
 
-  /// A line leaves between a joint on its right and the next one on its left; size(): all lie on
-  /// one side.
-  [[gnu::always_inline]] int exit_of_line(geometry::Vector origin, geometry::Vector v,
-                                          double bound) const {
+  /// The joints on the right of a line, as bits: joint i is where wall i starts.
+  struct Right {
+    std::uint64_t joints = 0;
+    bool decided = false;
+  };
+  [[gnu::always_inline]] Right right_of_line(geometry::Vector origin, geometry::Vector v,
+                                             double bound) const {
     const Vectors from{base::both(origin.x), base::both(origin.y)},
         velocity{base::both(v.x), base::both(v.y)};
     base::Pair least = base::both(HUGE_VAL);
@@ -57,8 +60,15 @@ class Enclosure {
       right |= static_cast<std::uint64_t>(base::signs(side)) << shift;
       shift += 2;
     }
-    if (!((least[0] > bound) & (least[1] > bound))) return undecided;
-    right &= all_;
+    const bool decided = (least[0] > bound) & (least[1] > bound);
+    return {right & all_, decided};
+  }
+  /// A line leaves a convex loop between a joint on its right and the next one on its left; size():
+  /// all lie on one side.
+  [[gnu::always_inline]] int exit_of_line(geometry::Vector origin, geometry::Vector v,
+                                          double bound) const {
+    const auto [right, decided] = right_of_line(origin, v, bound);
+    if (!decided) return undecided;
     return std::countr_zero((right & ~(right >> 1 | right << (size_ - 1))) | std::uint64_t{1}
                                                                                  << size_);
   }

@@ -13,6 +13,8 @@ using namespace geometry;
 
 HitFinder::HitFinder(const PieceTable& pieces)
     : t_(pieces), origins_(t_.offsets.size()), left_(t_.data.size()) {
+  const int signs = t_.signs.size();
+  if (signs > 0) exits_.resize(static_cast<std::size_t>(signs) << signs, unknown_exit);
   if (!t_.grid) return;
   seen_.resize(t_.data.size());
   seen_offsets_.resize(t_.offsets.size());

@@ -77,10 +77,12 @@ class HitFinder {
   bool over_edges(Flight& flight, Ahead& ahead, DecisionCounts& counts) const;
   bool filtered_among_discs(const Flight& flight, Ahead& ahead) const;
   bool line_in_enclosure(const Flight& flight, Ahead& ahead) const;
+  bool line_to(const Flight& flight, int wall, Ahead& ahead) const;
   bool circle_in_enclosure(const Flight& flight, Ahead& ahead) const;
   Sign meets_one_disc(const Flight& flight, const Origin& origin, int& met, Quotient& at) const;
   int exit_of_enclosure(const Flight& flight, const Origin& origin) const;
   static bool put(int piece, Ahead::Kind kind, const Quotient& at, Ahead& ahead);
+  void next_by_signs(const Flight& flight, Ahead& ahead, DecisionCounts& counts);
 
   // Tables of many walls (grid_hit.cpp).
   void next_in_grid(const Flight& flight, Ahead& ahead, DecisionCounts& counts);
@@ -127,6 +129,10 @@ class HitFinder {
   std::vector<std::uint32_t> seen_offsets_;  // an offset: the last flight that asked for its origin
   std::uint32_t flights_ = 0;
   std::vector<int> list_;  // pieces on the way of a flight
+  // Where the sides of the joints tell the exit (PieceTable::signs), for each piece and set of
+  // joints on the right of a flight from there: the exit, once one has shown it.
+  static constexpr unsigned char unknown_exit = 255;
+  std::vector<unsigned char> exits_;
 };
 
 }  // namespace carom::events

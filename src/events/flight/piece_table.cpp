@@ -42,6 +42,7 @@ class PieceTable::Preparation : public PieceTable::Shared {
   std::vector<Images> loops_that_reach() const;
   void find_ellipses();
   void find_enclosure(bool complement);
+  void find_signs(bool complement);
   void find_within();
   void make_grid(bool edges);
   void list_near(Vector first, Vector second);
@@ -99,7 +100,10 @@ PieceTable::Preparation::Preparation(PieceTable& table_made, bool edges, bool co
   for (const PreparedCurve& c : curves) made_.reach = std::max(made_.reach, 1.01 * norm_1(c.from));
   for (PieceData& p : data) p.shape = &curves[at(p.curve)];  // curves is complete
   if (made_.cells && edges) find_within();
-  if (edges) find_enclosure(complement);
+  if (edges) {
+    find_enclosure(complement);
+    find_signs(complement);
+  }
   if (static_cast<int>(data.size()) < made_.options.grid_from) return;
   make_grid(edges);
   if (!made_.cells && has_long_loops()) {
@@ -326,6 +330,37 @@ void PieceTable::Preparation::find_enclosure(bool complement) {
   }
   made_.enclosure.set_diameter(1.01 * norm_1(box.high - box.low));
   made_.enclosure_rounding = 4.1 * unit_roundoff * made_.enclosure.diameter();
+}
+
+/// Lines that have the same joints on their right can be moved into each other without passing one,
+/// and what they cross on the way changes only where they touch an arc: never from inside, which is
+/// where the domain is. So from one wall they leave by the same wall; also within the cap between
+/// an arc and its chord if no joint is there (docs/developer/lanes.md has the proof).
+void PieceTable::Preparation::find_signs(bool complement) {
+  constexpr std::size_t most = 10;
+  if (complement || made_.cells || made_.convex || made_.thin || table_.crossing ||
+      data.size() > most)
+    return;
+  // A joint beyond a chord by no more than this counts as on it. The computed distance errs by
+  // 8u reach (products of differences, 4u of them), so it is beyond by less than 20u reach: then no
+  // line has it on one side and both ends of the chord on the other, each at least 12u reach away.
+  // That is certain where a computed side exceeds four times its bound, half of side_error.
+  const double margin = 8.0 * unit_roundoff * made_.reach;  // as `reach` bounds l1 norms
+  for (const PieceData& p : data) {
+    const PreparedCurve& w = *p.shape;
+    if (p.closed || w.orientation < 0.0 || p.kind > CurveKind::circle) return;
+    if (p.kind == CurveKind::segment) continue;
+    const Vector chord = w.to - w.from;
+    const double radius = std::sqrt(w.r2) + 0x1p-40 * (std::sqrt(w.r2) + made_.reach + w.extent);
+    for (const PieceData& other : data) {
+      const Vector joint = other.shape->from, e = joint - w.centre;
+      if (&other == &p || &other == &data[at(p.next)]) continue;
+      if (geometry::cross(chord, joint - w.from) < -margin * std::sqrt(dot(chord, chord)) &&
+          std::sqrt(dot(e, e)) < radius)
+        return;
+    }
+  }
+  for (const PieceData& p : data) made_.signs.add(p.shape->from, Vector{}, 0.0, false);
 }
 
 /// Pieces of a loop follow each other, and are neighbours: a tree of them pays if loops are long.

@@ -169,6 +169,9 @@ struct PieceTable {
   bool convex = false;              ///< all walls are the enclosure: there is nothing in it
   double enclosure_rounding = 0.0;  ///< error of a joint's distance in it, if so
   bool without_ellipses = false;
+  /// Not convex, but of few walls that are segments or arcs with the domain inside: all of them, as
+  /// the joints on the right of a line from a wall tell its exit; or empty.
+  Enclosure signs;
   bool discs_within = false;  ///< no disc touches an edge: a particle on a disc is in its cell
 
   const WallGrid* grid = nullptr;   ///< of tables with many walls, else null
