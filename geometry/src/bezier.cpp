@@ -2,7 +2,6 @@
 #include "carom/geometry/bezier.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "exact_curve.hpp"

@@ -347,8 +347,7 @@ CurveExit LarmorCircle<degree>::exit_at(double u, double spread) const {
 }
 
 /// Calls `found` with the curve's degree, known to the compiler.
-template <class Found>
-CurveExit with_degree(const BezierForm& curve, const Found& found) {
+CurveExit with_degree(const BezierForm& curve, const auto& found) {
   switch (curve.degree) {
     case 2:
       return found(std::integral_constant<std::size_t, 2>());

@@ -26,8 +26,7 @@ struct Course {
 
 /// The exit at the one root in [from, to], where the sign changes between the values `first` and
 /// `last`. Negative: the flight does not leave there.
-template <class Path>
-CurveExit exit_between(const Path& path, double first, double last, double from, double to,
+CurveExit exit_between(const auto& path, double first, double last, double from, double to,
                        bool rises) {
   double low = from, high = to;
   double u = from + (to - from) * (first / (first - last));
@@ -83,8 +82,7 @@ class Search {
   }
 
  private:
-  template <class Polynomial>
-  std::optional<bool> look(const Polynomial& p, double from, double to, int depth) {
+  std::optional<bool> look(const auto& p, double from, double to, int depth) {
     const SignChanges roots = sign_changes(p, [](const NumberWithError& x) { return x.sign(); });
     if (roots.first == Sign::undecided || roots.last == Sign::undecided) return false;
     if (roots.most == 0) return true;
@@ -115,8 +113,7 @@ class Search {
 /// do that come to a short one. The coefficients in Bernstein form rise or fall by so much that one
 /// of them at most is hidden by its error: the search finds one root at once, or none, and from the
 /// signs at the ends it is known which.
-template <class Path>
-std::optional<CurveExit> exit_across(const Path& path) {
+std::optional<CurveExit> exit_across(const auto& path) {
   if (path.stands()) return std::nullopt;
   const Course g = path.course();
   if (g.trend == Sign::undecided) return std::nullopt;
@@ -128,8 +125,7 @@ std::optional<CurveExit> exit_across(const Path& path) {
   return exit.leaves == Sign::undecided ? std::nullopt : std::optional(exit);
 }
 
-template <class Path>
-CurveExit first_exit_of(const Path& path) {
+CurveExit first_exit_of(const auto& path) {
   if (const auto exit = exit_across(path)) return *exit;
   if (path.surely_missed()) return {.leaves = Sign::negative};
   return Search(path).first();

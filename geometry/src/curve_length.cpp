@@ -162,8 +162,7 @@ double curved_parameter(const CurveFrame& f, double s) {
 }
 
 // `arctangent`: asked on circles only.
-template <class Arctangent>
-double length_by(const CurveFrame& f, double u, const Arctangent& arctangent) {
+double length_by(const CurveFrame& f, double u, const auto& arctangent) {
   if (u <= 0.0) return 0.0;
   if (u > f.end) u = f.end;
   if (f.kind == Kind::segment) return u * f.major;

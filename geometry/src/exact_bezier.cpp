@@ -63,8 +63,7 @@ class Crossings {
 
 /// Calls visit(root, sign of the side just before it, multiplicity) for each root of the side in
 /// (0, 1] at which the particle does not stand, ascending.
-template <class Visit>
-void roots_of(const FlightAtCurve& l, const Visit& visit) {
+void roots_of(const FlightAtCurve& l, const auto& visit) {
   Polynomial g = side_of(l);
   for (const Dyadic& u : l.known) g = without_root(g, u);
   while (!g.empty() && g.back().sign() == 0) g.pop_back();

@@ -1,7 +1,6 @@
 // The inside of ExactFlight.
 #pragma once
 
-#include <optional>
 #include <utility>
 #include <vector>
 

@@ -1,7 +1,6 @@
 // A closed loop of exact pieces: point location and orientation by counting crossings of a ray.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "carom/geometry/region.hpp"

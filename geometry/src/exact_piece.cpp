@@ -57,8 +57,7 @@ int sign_of_value(const Polynomial& p, const AlgebraicRoot& w) {
 }
 
 /// `sign(a, p)` tells the sign of a.(X - P) at the point X in question.
-template <class SignOfForm>
-Where place_on(const ExactCurve& c, const SignOfForm& sign) {
+Where place_on(const ExactCurve& c, const auto& sign) {
   if (c.closed) return Where::inside;
   const ExactPoint from{c.from.x, c.from.y, Dyadic(1)}, to{c.to.x, c.to.y, Dyadic(1)};
   const DyadicVector chord = c.to - c.from;

@@ -3,8 +3,7 @@
 
 namespace carom::geometry {
 
-template <class Function>
-double gauss_legendre(double from, double to, const Function& f) {
+double gauss_legendre(double from, double to, const auto& f) {
   constexpr double node[4] = {0.18343464249564980494, 0.52553240991632898582,
                               0.79666647741362673959, 0.96028985649753623168};
   constexpr double weight[4] = {0.36268378337836198297, 0.31370664587788728734,

@@ -11,8 +11,7 @@
 namespace carom::geometry {
 
 /// Calls report(i, j) once for each pair; stops when it answers false.
-template <class Report>
-void overlapping_boxes(const std::vector<Box>& boxes, const Report& report) {
+void overlapping_boxes(const std::vector<Box>& boxes, const auto& report) {
   if (boxes.empty()) return;
   const Box whole = hull_of(boxes);
   const bool along_x = whole.high.x - whole.low.x >= whole.high.y - whole.low.y;

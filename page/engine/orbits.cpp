@@ -102,7 +102,7 @@ class Flight final : public Observer {
     double time;
   };
 
-  bool forced() const { return system().dynamics.forces && !system().dynamics.forces->empty(); }
+  bool forced() const { return system().has_forces(); }
   void add(const Request& start) {
     const std::size_t all = act_on_each_other(system()) ? system().particles.size() : 1;
     const auto seed = start.get_optional<std::uint64_t>("seed");

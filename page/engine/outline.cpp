@@ -157,7 +157,7 @@ Json outline(const OpenSystem& open) {
                                          lattice->second.y})
                               : Json())
       .set("length", open.offsets.back())
-      .set("potential", system.dynamics.forces && !system.dynamics.forces->empty())
+      .set("potential", system.has_forces())
       .set("field", field ? ExactNumber(field->text, field->place).to_double() : 0.0)
       .set("particles", system.particles.size())
       .set("no_rates", why_no_rates(system));

@@ -1,7 +1,6 @@
 // Integrators: their list, and compared on a system.
 #include <memory>
 
-#include "analyses/compare/command.hpp"
 #include "analyses/compare/report.hpp"
 #include "cli/reports/scheme_report.hpp"
 #include "loaded.hpp"

@@ -5,7 +5,6 @@
 #include <memory>
 #include <vector>
 
-#include "analyses/orbits/command.hpp"
 #include "analyses/orbits/report.hpp"
 #include "loaded.hpp"
 #include "run_in_background.hpp"

@@ -9,7 +9,6 @@
 #include "carom/base/error.hpp"
 #include "carom/files/archive.hpp"
 #include "cli/commands/sweep.hpp"
-#include "cli/commands/sweep_plan.hpp"
 #include "cli/common.hpp"
 #include "files/checkpoint/sweep_archive.hpp"
 #include "loaded.hpp"

@@ -13,13 +13,11 @@ namespace carom {
 
 using namespace files;
 
-template <class Result>
-void files::write_counts(const ArchiveFile& file, const Result& result, const System& system) {
+void files::write_counts(const ArchiveFile& file, const auto& result, const System& system) {
   ArchiveOut out(file);
   analyses::describe(out, result, system);
 }
-template <class Result>
-void files::read_counts(hid_t file, const std::string& name, Result& result) {
+void files::read_counts(hid_t file, const std::string& name, auto& result) {
   ArchiveIn in(file, name);
   analyses::describe(in, result, System());
 }

@@ -49,8 +49,7 @@ struct CacheOfThread {
 thread_local CacheOfThread cache_of_thread;
 
 /// function(result) fills in a result and returns on which side of the truth it is.
-template <class Function>
-double rounded(Function function) {
+double rounded(auto function) {
   cache_of_thread.keep();
   Number result;
   const ExponentsOfDoubles exponents;
@@ -66,8 +65,7 @@ double of(Unary function, double x) {
 }
 
 /// The number that `find` computes to many digits, in two doubles.
-template <class Find>
-fast::Two<double> in_two(Find find) {
+fast::Two<double> in_two(auto find) {
   Number all(160);
   find(static_cast<mpfr_ptr>(all));
   const double high = mpfr_get_d(all, MPFR_RNDN);

@@ -1,8 +1,6 @@
 // Enclosures of an expression between two numbers of any precision: signs and correct rounding by
 // raising the precision until the answer is certain (Ziv 1991).
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "expression.hpp"
 

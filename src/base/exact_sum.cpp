@@ -21,8 +21,7 @@ constexpr std::uint64_t widest_shift = 63, first_shift = 31;
 constexpr std::uint64_t near_limit = std::uint64_t{1} << 62;
 
 // All digits but the highest into [0, 2^32): this form of a number is unique.
-template <class Digits>
-void normalise(Digits& digits) {
+void normalise(auto& digits) {
   std::int64_t carry = 0;
   for (std::size_t i = 0; i + 1 < digits.size(); ++i) {
     const std::int64_t sum = digits[i] + carry;
@@ -33,8 +32,7 @@ void normalise(Digits& digits) {
 }
 
 // Adds a number of 128 bits in two's complement times 2^lowest, not normalised.
-template <class Digits>
-void add_words(Digits& digits, std::uint64_t low, std::uint64_t high, std::uint64_t lowest) {
+void add_words(auto& digits, std::uint64_t low, std::uint64_t high, std::uint64_t lowest) {
   const bool negative = (high >> 63) != 0;
   if (negative) {
     low = 0 - low;

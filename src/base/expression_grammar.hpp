@@ -134,8 +134,7 @@ class Grammar {
   }
 
   // A step of the meaning; `at` is the character to blame.
-  template <class Step>
-  auto checked(std::size_t at, Step step) const {
+  auto checked(std::size_t at, auto step) const {
     try {
       return step();
     } catch (const Fault& fault) {

@@ -15,8 +15,7 @@ namespace {
 constexpr long most_decimal_exponent = 5000;
 constexpr long most_exponent = 10000;
 
-template <class Operation>
-NodePointer evaluate(Operation operation) {
+NodePointer evaluate(auto operation) {
   try {
     return operation();
   } catch (const NoValue& reason) {

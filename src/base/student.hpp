@@ -1,4 +1,4 @@
-// Student's t.
+// Student's t, and Pearson's chi squared.
 #pragma once
 
 namespace carom::base {
@@ -7,5 +7,8 @@ namespace carom::base {
 double student_quantile(double p, double degrees);
 /// The share that lies farther from 0 than t, on both sides.
 double student_beyond(double t, double degrees);
+
+/// The share of chi squared with this many degrees of freedom that lies beyond a value.
+double chi_squared_beyond(double value, double degrees);
 
 }  // namespace carom::base

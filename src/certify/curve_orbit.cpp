@@ -256,8 +256,7 @@ class CurveOrbit final : public FollowedOrbit {
   };
   /// The parameter there, by Newton's steps in doubles that do not leave the bracket. It is where
   /// the search with balls begins, so that how near it comes decides nothing.
-  template <class Side, class Slope>
-  double refined(const Bracket& bracket, const Side& side, const Slope& slope) const {
+  double refined(const Bracket& bracket, const auto& side, const auto& slope) const {
     const Precision precision(64);
     double before = bracket.before, after = bracket.after, t = bracket.about;
     for (int n = 0; n < 100; ++n) {
@@ -328,9 +327,8 @@ class CurveOrbit final : public FollowedOrbit {
   }
   /// The piece that the flight comes from bends back into it if one of its ends is on the other
   /// side. With the slope a at the start the side is about -a s + b s^2.
-  template <class Offer>
   void along_piece(double at_start, double at_end, geometry::Vector from, geometry::Vector side,
-                   const Offer& offer) const {
+                   const auto& offer) const {
     const double part = curve_.parameter(wall_, 1.0) - curve_.parameter(wall_, 0.0);
     const geometry::Vector tangent = in_doubles(curve_.at(*parameter_).first);
     const double a = -2.0 * part * cross(in_doubles(direction_), tangent);

@@ -1,4 +1,5 @@
-// The commands and their options as data, for completions and for Python. --help prints the same.
+// The commands and their options as data, for completions and for Python (--help prints the same),
+// and what may follow on a command line, for the shells that complete it (cmake/completion).
 #pragma once
 
 #include <string>
@@ -22,5 +23,9 @@ struct CommandRow {
 
 /// The program itself, then its commands in the order of --help.
 std::vector<CommandRow> command_table();
+
+/// `line`: the command line up to where TAB was typed. A line for each word that fits, with its
+/// meaning after a tab; where a file is meant, one line of patterns: "*.toml *.h5".
+std::string completions(const std::string& line);
 
 }  // namespace carom::cli

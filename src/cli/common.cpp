@@ -8,17 +8,18 @@
 #include <cerrno>
 #include <cmath>
 #include <csignal>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
+#include "base/parts.hpp"
 #include "base/printable.hpp"
 #include "carom/analyses/run.hpp"
-#include "carom/base/error.hpp"
+#include "carom/base/exact_number.hpp"
 #include "carom/base/whole_number.hpp"
 #include "carom/integrators/scheme.hpp"
 #include "carom/starts/sampler.hpp"
+#include "carom/system/report_times.hpp"
 #include "carom_version.hpp"
 #include "cli/commands/ensemble_job.hpp"
 #include "cli/reports/aligned.hpp"
@@ -74,12 +75,10 @@ void write_message(const std::string& line) {
   std::fputs((base::printable(line, base::Lines::many) + "\n").c_str(), stderr);
 }
 
-Place option_place(const char* option) { return Place{"command line", 0, 0, option}; }
-
 }  // namespace
 
 std::uint64_t whole_number(const std::string& text, const char* option, std::uint64_t least) {
-  const Place place = option_place(option);
+  const Place place = place_of(option);
   const std::string expected = fmt::format("a whole number of at least {}", least);
   const auto number = carom::whole_number(ExactNumber(text, place));
   if (!number)
@@ -92,7 +91,7 @@ int threads_of(const Options& options) {
   if (options.threads.empty()) return 0;
   const std::uint64_t threads = whole_number(options.threads, "--threads", 1);
   if (threads > 4096)
-    throw InputError(option_place("--threads"), fmt::format("{} threads are too many", threads),
+    throw InputError(place_of("--threads"), fmt::format("{} threads are too many", threads),
                      "at most 4096");
   return static_cast<int>(threads);
 }
@@ -101,12 +100,8 @@ namespace {
 
 [[noreturn]] void refuse_name(const char* option, const std::string& value, const char* problem,
                               const std::string& expected, const std::string& nearest = {}) {
-  throw InputError(option_place(option), fmt::format("'{}' {}", value, problem), expected, nearest);
+  throw InputError(place_of(option), fmt::format("'{}' {}", value, problem), expected, nearest);
 }
-
-}  // namespace
-
-namespace {
 
 void check_instruction_set(const Options& options) {
   if (options.isa == "auto") return;
@@ -134,14 +129,14 @@ InstructionSet instruction_set_of(const Options& options) {
 
 void choose_engine(const std::string& engine, System& system) {
   const Dynamics& dynamics = system.dynamics;
-  const bool forces = dynamics.forces && !dynamics.forces->empty();
+  const bool forces = system.has_forces();
   if (engine == "events" && forces)
-    throw InputError(option_place("--engine"), "'events' cannot move particles under forces",
+    throw InputError(place_of("--engine"), "'events' cannot move particles under forces",
                      "auto or steps");
   system.dynamics.everywhere = engine == "steps";
   if (!forces && engine != "steps") return;
   if (!(dynamics.integrator.step > 0.0) && !is_adaptive(dynamics.integrator.scheme))
-    throw InputError(option_place("--engine"), "'steps' needs the length of a step",
+    throw InputError(place_of("--engine"), "'steps' needs the length of a step",
                      "[integrator] step, or --set integrator.step=0.01");
   double omega = 0.0;
   for (const Particle& p : system.particles) omega = std::max(omega, std::fabs(p.omega));
@@ -153,7 +148,7 @@ void choose_engine(const std::string& engine, System& system) {
 std::string engine_of(const System& system) {
   const Dynamics& dynamics = system.dynamics;
   if (dynamics.everywhere) return "steps";
-  if (!dynamics.forces || dynamics.forces->empty()) return "events";
+  if (!system.has_forces()) return "events";
   return dynamics.forces->everywhere() || dynamics.forces->interacts() ? "steps" : "auto";
 }
 
@@ -294,6 +289,28 @@ std::string until(double last_time) {
 
 std::string heading(const System& system) {
   return folded(base::printable(system.title.empty() ? system.name : system.title)) + "\n";
+}
+
+std::vector<double> numbers_of(const std::string& text, const char* option, const char* what,
+                               const char* expected) {
+  const Place place = place_of(option);
+  const bool grid = text.find(':') != std::string::npos;
+  const std::vector<std::string> parts = base::parts_of(text, grid ? ':' : ',');
+  const auto number = [&](const std::string& part) { return ExactNumber(part, place).to_double(); };
+  std::vector<double> numbers;
+  if (!grid) {
+    for (const std::string& part : parts) numbers.push_back(number(part));
+    return numbers;
+  }
+  const bool log = parts[0] == "log";
+  if (parts.size() != 4 || (!log && parts[0] != "lin"))
+    throw InputError(place, fmt::format("cannot read the {} '{}'", what, text), expected);
+  const double first = number(parts[1]), last = number(parts[2]);
+  const std::uint64_t count = whole_number(parts[3], option, 2);
+  if (!(first < last) || (log && !(first > 0.0)) || count > 1'000'000)
+    throw InputError(place, fmt::format("cannot read the {} '{}'", what, text),
+                     fmt::format("from < to, at most 1e6 {}", what));
+  return spaced(first, last, count, log);
 }
 
 }  // namespace carom::cli

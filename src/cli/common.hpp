@@ -7,6 +7,7 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/counted.hpp"
 #include "carom/base/error.hpp"
@@ -77,8 +78,7 @@ inline std::string named_archive(const Options& options, const std::string& outp
 }
 /// Prints a report as JSON or as text; that of a value goes to its sweep. `json` and `text` are
 /// functions that make them, `doubts` is why the result cannot be trusted.
-template <class MakeJson, class MakeText>
-void print_report(const Options& options, const MakeJson& json, const MakeText& text,
+void print_report(const Options& options, const auto& json, const auto& text,
                   const std::string& doubts = {}) {
   if (options.of_sweep)
     options.of_sweep->take(json(), doubts);
@@ -101,5 +101,12 @@ using base::grouped;
 std::string until(double last_time);
 /// The first line of a report: the system's title, or its name.
 std::string heading(const System&);
+
+/// Reads "a,b,c", "lin:from:to:count" or "log:from:to:count" (from < to), at most 10^6 of them.
+/// Throws InputError naming the option, what it takes ("levels"), and where it is no such list
+/// `expected`.
+std::vector<double> numbers_of(
+    const std::string& text, const char* option, const char* what,
+    const char* expected = "a,b,c or log:from:to:count or lin:from:to:count");
 
 }  // namespace carom::cli

@@ -1,4 +1,3 @@
-#include "cli/complete.hpp"
 
 #include <algorithm>
 #include <sstream>

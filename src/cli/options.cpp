@@ -8,20 +8,14 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "carom/base/error.hpp"
 #include "carom/files/system_file.hpp"
 #include "carom_version.hpp"
 #include "cli/command_options.hpp"
 #include "cli/command_table.hpp"
-#include "cli/complete.hpp"
 #include "cli/option_faults.hpp"
 #include "cli/reports/aligned.hpp"
 

@@ -8,6 +8,8 @@
 #include "carom/base/error.hpp"
 #include "carom/files/archive.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/commands/ensemble_job.hpp"
+#include "cli/common.hpp"
 
 namespace carom::cli {
 
@@ -38,6 +40,16 @@ LoadedPointer loaded_again(const std::string& command, const std::string& toml,
   loaded->loaded = system_of_command(loaded->options);
   loaded->loaded.system.name = name;
   return loaded;
+}
+
+LoadedSystem system_of_command(const Options& options) {
+  const std::string& command = options.command;
+  if (command == "escape") check_escape_options(options);
+  if (is_ensemble(command)) return load_ensemble(options);
+  if (command == "run") return system_of_run(options);
+  if (command == "section") return system_of_section(options);
+  if (command == "compare") return system_of_compare(options);
+  return load_typed(options);
 }
 
 }  // namespace carom::cli

@@ -15,7 +15,6 @@
 #include <filesystem>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "carom/base/error.hpp"
 #include "carom/files/archive.hpp"

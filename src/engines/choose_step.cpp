@@ -165,8 +165,7 @@ bool resolves_region(const System& system, const World& world, double energy, do
 }  // namespace
 
 bool needs_step(const System& system) {
-  return system.dynamics.forces && !system.dynamics.forces->empty() &&
-         !is_adaptive(system.dynamics.integrator.scheme) &&
+  return system.has_forces() && !is_adaptive(system.dynamics.integrator.scheme) &&
          !(system.dynamics.integrator.step > 0.0);
 }
 

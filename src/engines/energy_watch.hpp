@@ -1,7 +1,6 @@
 // How well the energies of a trajectory's particles are kept where forces act.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -37,7 +36,7 @@ class EnergyWatch {
  public:
   EnergyWatch(const System& system, std::function<bool()> stopped)
       : system_(&system), stopped_(std::move(stopped)) {
-    const bool forces = system.dynamics.forces && !system.dynamics.forces->empty();
+    const bool forces = system.has_forces();
     const bool shared = forces && system.dynamics.forces->interacts();
     of_each_ = forces && !shared;
     of_all_ = shared && system.injections.empty();

@@ -16,10 +16,7 @@ using namespace engines;
 namespace {
 
 /// Does nothing act between walls?
-bool is_free(const System& system) {
-  const Dynamics& d = system.dynamics;
-  return !d.everywhere && (!d.forces || d.forces->empty()) && !system.of_discs();
-}
+bool is_free(const System& system) { return !system.is_integrated() && !system.of_discs(); }
 
 /// Starts that are drawn together.
 constexpr std::uint64_t most_ahead = 64;

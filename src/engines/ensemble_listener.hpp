@@ -21,6 +21,8 @@ template <class Result>
 class EnsembleListener : public Listener {
  public:
   using Thread = typename EnsembleRun<Result>::Thread;
+  /// The trajectories that come next.
+  virtual void claimed(TrajectoryRange) {}
 
  protected:
   EnsembleListener(const System& system, const Engine& engine, Thread& thread)
@@ -77,8 +79,9 @@ Result fly_blocks(const System& system, const System& starts,
     auto listener = listen(*engine, thread);
     const std::function<bool()> stopped = [&] { return thread.stopped(); };
     DrawnStarts drawn(sampler, [&](TrajectoryRange& block) {
-      std::uint64_t number = 0;
-      return !stopped() && thread.claim(block, number);
+      if (stopped() || !thread.claim(block)) return false;
+      listener.claimed(block);
+      return true;
     });
     engine->run(drawn, listener, stopped);
   });

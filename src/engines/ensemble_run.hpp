@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <exception>
@@ -13,6 +15,7 @@
 #include <limits>
 #include <mutex>
 #include <optional>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -22,9 +25,45 @@
 #include "carom/starts/sampler.hpp"
 #include "carom/system/system.hpp"
 #include "engines/block_list.hpp"
-#include "engines/periodic.hpp"
 
 namespace carom::engines {
+
+/// Calls `action`, which must not throw, again and again, this many seconds apart, until it is
+/// stopped.
+class Periodic {
+ public:
+  Periodic(double seconds, std::function<void()> action)
+      : pause_(seconds), action_(std::move(action)), thread_([this] { work(); }) {}
+  Periodic(const Periodic&) = delete;
+  ~Periodic() { stop(); }
+
+  /// Waits for a call that is under way.
+  void stop() {
+    {
+      const std::lock_guard lock(mutex_);
+      stopped_ = true;
+    }
+    wake_.notify_all();
+    if (thread_.joinable()) thread_.join();
+  }
+
+ private:
+  void work() {
+    std::unique_lock lock(mutex_);
+    while (!wake_.wait_for(lock, pause_, [this] { return stopped_; })) {
+      lock.unlock();
+      action_();
+      lock.lock();
+    }
+  }
+
+  std::chrono::duration<double> pause_;
+  std::function<void()> action_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  bool stopped_ = false;
+  std::thread thread_;  // last: it uses the others
+};
 
 template <class Result>
 class EnsembleRun {
@@ -35,13 +74,12 @@ class EnsembleRun {
   class Thread {
    public:
     explicit Thread(EnsembleRun& run) : run_(run), sum_(run.nothing_) {}
-    /// The next block and, in this process, its number; false: there is none.
-    bool claim(TrajectoryRange& block, std::uint64_t& number) { return run_.claim(block, number); }
+    /// The next block; false: there is none.
+    bool claim(TrajectoryRange& block) { return run_.claim(block); }
     bool stopped() const { return run_.stopped(); }
     bool wants_records() const { return run_.wants_records(); }
     /// Trajectories that are done: `part` adds them to the sum, including `done`.
-    template <class Part>
-    void deliver(TrajectoryRange range, Part part, std::vector<TrajectoryRecord>&& records = {}) {
+    void deliver(TrajectoryRange range, auto part, std::vector<TrajectoryRecord>&& records = {}) {
       {
         const std::lock_guard lock(mutex_);
         part(sum_);
@@ -83,7 +121,6 @@ class EnsembleRun {
     for (int i = 0; i < threads_; ++i) sums_.emplace_back(*this);
   }
 
-  int threads() const { return threads_; }
   std::optional<InstructionSet> lanes;  ///< that the report names
 
   /// Every thread works until there are no blocks left.
@@ -198,8 +235,8 @@ class EnsembleRun {
     options_.journal->block(range, std::move(records));
   }
 
-  bool claim(TrajectoryRange& block, std::uint64_t& number) {
-    number = next_block_.fetch_add(1);
+  bool claim(TrajectoryRange& block) {
+    const std::uint64_t number = next_block_.fetch_add(1);
     if (number >= blocks_.size()) return false;
     block = blocks_[number];
     return true;

@@ -11,14 +11,13 @@
 #include "carom/table/table.hpp"
 #include "engines/force_tangent.hpp"
 #include "engines/free_group_tangent.hpp"
-#include "results/describe_ends.hpp"
 
 namespace carom::engines {
 
 using base::at;
 
 void refuse_no_deviations(const System& system) {
-  if (results::is_integrated(system) && is_adaptive(system.dynamics.integrator.scheme))
+  if (system.is_integrated() && is_adaptive(system.dynamics.integrator.scheme))
     throw InputError(Place{"", 0, 0, "integrator.scheme"},
                      "deviations are not followed by adaptive schemes", "a scheme of fixed steps");
   refuse_all_but_mirrors(*system.table, "deviations");
@@ -46,9 +45,8 @@ FollowedDeviations::FollowedDeviations(const System& system, Deviations kind)
     : system_(system),
       kind_(kind),
       walls_(motion::tangent_walls(system.table->walls, system.table->lattice)) {
-  const auto& forces = system.dynamics.forces;
-  const bool forced = forces && !forces->empty();
-  if (!forced && !system.of_discs() && kind != Deviations::frame) return;  // across their orbits
+  if (!system.has_forces() && !system.of_discs() && kind != Deviations::frame)
+    return;  // across their orbits
   std::vector<std::size_t> all(system.particles.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   if (act_on_each_other(system))
@@ -58,8 +56,7 @@ FollowedDeviations::FollowedDeviations(const System& system, Deviations kind)
 }
 
 void FollowedDeviations::add_group(std::vector<std::size_t> members) {
-  const auto& forces = system_.dynamics.forces;
-  if (forces && !forces->empty())
+  if (system_.has_forces())
     groups_.push_back(std::make_unique<ForceTangent>(system_, std::move(members), kind_));
   else
     groups_.push_back(std::make_unique<FreeGroupTangent>(system_, std::move(members), kind_));

@@ -1,6 +1,5 @@
 #include "engines/force_tangent.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

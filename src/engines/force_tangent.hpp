@@ -2,7 +2,6 @@
 // and, by its derivative, to their deviations.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>

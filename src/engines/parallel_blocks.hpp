@@ -34,9 +34,8 @@ struct BlockPlan {
 /// stopped)` does trajectories first … end - 1 and returns false if it was stopped on the way;
 /// `finish(worker)` is called at a thread's end, one thread at a time. Rethrows what any of them
 /// throws, after all threads are done. Returns whether all blocks were finished.
-template <class Make, class Finish>
-bool run_blocks(const BlockPlan& plan, const std::atomic<bool>* interrupted, Make make,
-                Finish finish) {
+bool run_blocks(const BlockPlan& plan, const std::atomic<bool>* interrupted, auto make,
+                auto finish) {
   std::atomic<std::uint64_t> next{0}, finished{0};
   std::atomic<bool> failed{false};
   std::mutex mutex;

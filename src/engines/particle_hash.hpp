@@ -27,7 +27,8 @@ inline std::uint64_t mix(std::uint64_t so_far, const State& state) {
 /// and its samples.
 class ParticleHash {
  public:
-  explicit ParticleHash(const System& system) : of_states_(has_states(system)) {}
+  explicit ParticleHash(const System& system)
+      : of_states_(system.is_integrated() || system.of_discs()) {}
 
   /// `end_time`: t_max of survivors; `state`: after the last event; `samples`: at the report times
   /// before the end.
@@ -43,11 +44,6 @@ class ParticleHash {
   }
 
  private:
-  static bool has_states(const System& system) {
-    const Dynamics& d = system.dynamics;
-    return d.everywhere || (d.forces && !d.forces->empty()) || system.of_discs();
-  }
-
   bool of_states_;
 };
 

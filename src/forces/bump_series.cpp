@@ -1,7 +1,6 @@
 #include "forces/bump_series.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

@@ -54,8 +54,7 @@ struct Batch {
 };
 
 /// Adds the forces of all bumps of a kind, and returns their potential: of sums of units of each.
-template <class Bumps>
-double add_bumps(const Bumps& bumps, const Centers& centers, Vector x, double height, double slope,
+double add_bumps(const auto& bumps, const Centers& centers, Vector x, double height, double slope,
                  Vector& force) {
   Lanes value{}, fx{}, fy{};
   Batch b;
@@ -212,35 +211,6 @@ void add_bump_hessian(const BumpShape& shape, double height, Vector d, Hessian& 
     return;  // there the bump is below 1e-130, and exp(t)^2 not much below infinity
   const auto e = exponential(t), q = 1.0 / (1.0 + e);
   add_central(q * q * e / (shape.softness * r), d, height, hessian);
-}
-
-std::vector<Vector> copies_that_reach(const std::vector<Vector>& centers,
-                                      const geometry::Lattice& lattice, double reach) {
-  Vector middle{};
-  for (const geometry::CellEdge& e : lattice.edges) middle = middle + e.segment.from;
-  middle = (1.0 / static_cast<double>(lattice.edges.size())) * middle;
-  double cell = 0.0;
-  for (const geometry::CellEdge& e : lattice.edges) {
-    const Vector d = e.segment.from - middle;
-    cell = std::max(cell, std::sqrt(dot(d, d)));
-  }
-  const double longest =
-      std::sqrt(std::max(dot(lattice.first, lattice.first), dot(lattice.second, lattice.second)));
-  std::vector<Vector> found;
-  for (const Vector& center : centers) {
-    const Vector offset = center - middle;
-    const double far = reach + cell + std::sqrt(dot(offset, offset));
-    // |m a + n b| >= max(|m|, |n|) area / longest
-    const auto range =
-        static_cast<std::int64_t>(std::ceil(far * longest / lattice.cell_area())) + 1;
-    for (std::int64_t m = -range; m <= range; ++m)
-      for (std::int64_t n = -range; n <= range; ++n) {
-        const Vector copy = center + lattice.translation({m, n});
-        const Vector d = copy - middle;
-        if (dot(d, d) <= (reach + cell) * (reach + cell)) found.push_back(copy);
-      }
-  }
-  return found;
 }
 
 namespace {

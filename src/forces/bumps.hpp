@@ -2,7 +2,6 @@
 #pragma once
 
 #include "base/inline.hpp"
-#include "base/vectorised.hpp"
 #include "forces/bump_series.hpp"
 #include "forces/potential.hpp"
 
@@ -10,10 +9,6 @@ namespace carom::forces {
 
 /// Adds the second derivatives of one bump of this height at d from its centre.
 void add_bump_hessian(const BumpShape&, double height, geometry::Vector d, Hessian&);
-
-/// The copies, on a lattice, that are nearer than `reach` to some point of the cell.
-std::vector<geometry::Vector> copies_that_reach(const std::vector<geometry::Vector>& centers,
-                                                const geometry::Lattice& lattice, double reach);
 
 /// Distances beyond which all copies of a bump together add less than tail_share of its height
 /// (docs/physics/forces.md derives them).

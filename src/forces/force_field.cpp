@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "forces/nearest_copy.hpp"
 #include "forces/potential.hpp"

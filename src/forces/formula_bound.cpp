@@ -1,10 +1,8 @@
 #include "forces/formula_bound.hpp"
 
 #include <array>
-#include <span>
 #include <vector>
 
-#include "forces/complex_box.hpp"
 #include "forces/formula.hpp"
 
 namespace carom::forces {

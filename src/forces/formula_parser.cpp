@@ -128,8 +128,7 @@ class Typed {
   std::vector<std::string> variables() const { return {variables_.begin(), variables_.end()}; }
 
   // A part that is a number has to be finite.
-  template <class Operate>
-  static Part checked(Operate operate) {
+  static Part checked(auto operate) {
     std::optional<Part> part;
     try {
       part = operate();

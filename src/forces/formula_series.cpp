@@ -1,6 +1,5 @@
 #include "forces/formula_series.hpp"
 
-#include <algorithm>
 #include <vector>
 
 #include "forces/formula.hpp"

@@ -87,10 +87,7 @@ CAROM_INLINE const double* node_at(const LatticeSum& t, double i, double j) {
          static_cast<std::size_t>(((bits_i & t.mask) << t.shift) | (bits_j & t.mask)) * t.stride;
 }
 
-template <class Numbers>
-CAROM_INLINE void load(Numbers& to, const double* from) {
-  std::memcpy(&to, from, sizeof to);
-}
+CAROM_INLINE void load(auto& to, const double* from) { std::memcpy(&to, from, sizeof to); }
 
 /// Two times eight numbers in registers, each eight added up: halves to halves, so that the width
 /// of registers does not matter.

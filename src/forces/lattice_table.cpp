@@ -42,9 +42,8 @@ struct Copy {
 };
 
 /// Calls visit(copy) for the copies about a point that are nearer than `reach`.
-template <class Visit>
 void for_copies_about(Vector node, const std::vector<Vector>& centers, const Basis& basis,
-                      double reach, const Visit& visit) {
+                      double reach, const auto& visit) {
   const double area = cross(basis.first, basis.second);
   // |m a + n b| >= |m| area/|b| and |n| area/|a|
   const double high_m = reach * std::sqrt(dot(basis.second, basis.second)) / std::fabs(area);
@@ -160,8 +159,7 @@ class ErrorsAtNode {
   std::size_t copies() const { return copies_; }
   /// Calls seen(k, errors) for all but the nearest k, k = most_near or all, ..., 0; then it is
   /// empty.
-  template <class Seen>
-  void take(const Seen& seen) {
+  void take(const auto& seen) {
     SeriesErrors sum{};
     const auto add_bin = [&](std::size_t bin, double times) {
       const SeriesErrors& error = errors_.at(bin);

@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "carom/forces/force_field.hpp"
 #include "carom/forces/hessian.hpp"

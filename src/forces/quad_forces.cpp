@@ -75,8 +75,7 @@ Text text_of(const InteractionSpec& s) {
   throw InternalError("an interaction without a formula");
 }
 
-template <class Spec>
-TypedExpression formula_of(const Spec& s, const std::vector<std::string>& variables) {
+TypedExpression formula_of(const auto& s, const std::vector<std::string>& variables) {
   if (s.expression) return *s.expression;
   const Text text = text_of(s);
   return TypedExpression::parse(text.formula, variables, text.parameters, {});

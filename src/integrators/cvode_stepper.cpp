@@ -3,9 +3,6 @@
 #include <cvode/cvode.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-#include <algorithm>
-#include <limits>
-
 #include "carom/base/error.hpp"
 
 namespace carom::integrators {

@@ -5,8 +5,6 @@
 // Neither cancels for small theta, and nothing is chosen by size; omega = 0 is the straight line.
 #pragma once
 
-#include <utility>
-
 #include "carom/geometry/vector.hpp"
 #include "carom/integrators/arithmetic.hpp"
 

@@ -26,8 +26,7 @@ class PerParticle {
   std::size_t particles() const { return entry_of_.size(); }
 
   /// The entries for a step: make(omega, into) appends those of one omega.
-  template <class Make>
-  const std::vector<Entry>& of_step(const Real& step, const Make& make) {
+  const std::vector<Entry>& of_step(const Real& step, const auto& make) {
     if (!usual_.entries.empty() && usual_.step == step) return usual_.entries;
     if (!latest_.entries.empty() && latest_.step == step) {
       std::swap(usual_, latest_);

@@ -1,7 +1,5 @@
 #include "carom/integrators/scheme.hpp"
 
-#include <algorithm>
-
 #include "integrators/stages.hpp"
 
 namespace carom {

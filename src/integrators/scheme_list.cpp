@@ -1,4 +1,3 @@
-#include "carom/integrators/scheme_list.hpp"
 
 #include <vector>
 

@@ -4,7 +4,6 @@
 #include <variant>
 
 #include "carom/base/elementary.hpp"
-#include "carom/geometry/curve_frame.hpp"
 
 namespace carom::motion {
 

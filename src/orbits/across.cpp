@@ -17,8 +17,7 @@ AcrossMap absolute(const AcrossMap& m) {
 
 // Deviations across an orbit of direction `from` (unit), carried by `map` to one of direction
 // `to`: what lies along the flow there is taken off.
-template <class Map>
-AcrossMap across(const Map& map, Vector from, Vector to, double speed, double omega) {
+AcrossMap across(const auto& map, Vector from, Vector to, double speed, double omega) {
   const auto seen = [&](const Deviation& before) {
     Deviation after = map(before);
     const double along = dot(to, after.position) / speed;

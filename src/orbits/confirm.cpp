@@ -1,4 +1,4 @@
-#include "orbits/confirm.hpp"
+#include "orbits/newton.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "orbits/describe.hpp"
+#include "orbits/newton.hpp"
 
 #include <algorithm>
 #include <cmath>

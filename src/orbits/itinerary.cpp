@@ -1,6 +1,5 @@
 #include "orbits/itinerary.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "carom/base/elementary.hpp"

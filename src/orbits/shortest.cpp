@@ -1,8 +1,7 @@
-#include "orbits/shortest.hpp"
+#include "orbits/itinerary.hpp"
 
 #include <gsl/gsl_multimin.h>
 
-#include <cmath>
 #include <memory>
 #include <vector>
 

@@ -20,7 +20,6 @@
 #pragma once
 
 #include <concepts>
-#include <cstdint>
 #include <type_traits>
 
 #include "carom/results/ensemble_result.hpp"
@@ -33,26 +32,14 @@ namespace carom::results {
 template <class R, class Result>
 concept OrConst = std::same_as<std::remove_const_t<R>, Result>;
 
-/// Is motion integrated anywhere?
-inline bool is_integrated(const System& system) {
-  const Dynamics& d = system.dynamics;
-  return d.everywhere || (d.forces && !d.forces->empty());
-}
-/// Do forces act, so that energies are looked at?
-inline bool has_forces(const System& system) {
-  return system.dynamics.forces && !system.dynamics.forces->empty();
-}
-
 /// What integration has cost, and how well energies were kept.
-template <class V, class Result>
-void describe_integration(V& v, Result& result, const System& system) {
-  v.numbers_if(is_integrated(system), result.energy_error);
-  v.numbers_if(is_integrated(system), result.steps);
+void describe_integration(auto& v, auto& result, const System& system) {
+  v.numbers_if(system.is_integrated(), result.energy_error);
+  v.numbers_if(system.is_integrated(), result.steps);
 }
 
 /// /fates of ensembles whose particles are counted one by one.
-template <class V, class Result>
-void describe_ends(V& v, Result& result, const System& system) {
+void describe_ends(auto& v, auto& result, const System& system) {
   v.number({"trajectories", "1", "All particles of all trajectories"}, result.trajectories);
   v.fates(result, result.trajectories);
   v.number({"collisions", "1", "Reflections of all particles"}, result.collisions);

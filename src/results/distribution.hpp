@@ -12,8 +12,7 @@ namespace carom::results {
 
 /// A statistic of sums over groups, and its error by leaving out one filled group after the other:
 /// statistic(g) leaves out group g, statistic(filled.size()) none.
-template <class Statistic>
-Estimate jackknife(const std::vector<bool>& filled, Statistic statistic) {
+Estimate jackknife(const std::vector<bool>& filled, auto statistic) {
   const std::size_t groups = filled.size();
   const double whole = statistic(groups);
   double sum = 0, n = 0;
@@ -27,8 +26,7 @@ Estimate jackknife(const std::vector<bool>& filled, Statistic statistic) {
 }
 
 /// The sum over all groups but one of the number that `of` gives; the last: over all.
-template <class Of>
-std::vector<double> without_each(std::size_t groups, Of of) {
+std::vector<double> without_each(std::size_t groups, auto of) {
   double all = 0;
   for (std::size_t g = 0; g < groups; ++g) all += of(g);
   std::vector<double> left;

@@ -1,7 +1,6 @@
 // Cells of a grid that cover a region, and how the unit square is laid over them.
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <vector>
 

@@ -1,7 +1,6 @@
 // Quasi-random starts.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "carom/base/error.hpp"

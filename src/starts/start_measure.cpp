@@ -1,7 +1,6 @@
 #include "carom/starts/start_measure.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace carom {
 
@@ -47,19 +46,18 @@ std::string why_not_stationary(const System& system) {
   if (is_thermal(*system.table)) return "walls change the speeds";
   for (const Region& region : system.table->regions)
     if (region.index != 1.0) return "they are uniform where a refractive index differs";
-  const Dynamics& d = system.dynamics;
-  if (!d.forces || d.forces->empty()) return {};
-  if (system.particles.size() > 1 && (system.of_discs() || d.forces->interacts()))
+  if (!system.has_forces()) return {};
+  const ForceField& forces = *system.dynamics.forces;
+  if (system.particles.size() > 1 && (system.of_discs() || forces.interacts()))
     return "the energy is divided among interacting particles by a rule";
-  if (d.forces->external() && system.energies.empty())
+  if (forces.external() && system.energies.empty())
     return "they have one speed where the potential differs";
   return {};
 }
 
 bool starts_of_the_map(const System& system) {
-  const Dynamics& d = system.dynamics;
   return on_all_walls(system) && !lets_go(*system.table) && system.injections.empty() &&
-         !d.everywhere && (!d.forces || d.forces->empty());
+         !system.is_integrated();
 }
 
 System with_starts_of_the_flow(System system) {

@@ -1,7 +1,6 @@
 #include "trust/displaced_orbit.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "carom/trust/trust.hpp"

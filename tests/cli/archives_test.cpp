@@ -235,17 +235,6 @@ TEST(RunArchive, CanBeReadWhileItGrowsAndAfterAKill) {
   expect_refused(resumed, "a.h5: ");
 }
 
-// Rows of a column that is no longer written would be fewer than those of the others.
-TEST(RunArchive, DoesNotGoOnWithAColumnThatIsGone) {
-  const Shell shell;
-  ASSERT_EQ(shell("$carom run stadium --closed --t-max 30 -o a.h5 --quiet").status, 0);
-  const hid_t file = H5Fopen((shell.folder() + "/a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  H5Lcreate_hard(file, "collisions/s", file, "collisions/u", H5P_DEFAULT, H5P_DEFAULT);
-  H5Fclose(file);
-  expect_refused(shell("$carom run --resume a.h5 --t-max 40"), "a.h5: was begun by an earlier");
-  EXPECT_FALSE(shell.exists("a.h5.part"));
-}
-
 // HDF5 locks what it opens, for reading, too.
 TEST(RunArchive, SaysThatAnotherProgramHasItOpen) {
   const Shell shell;

@@ -186,22 +186,6 @@ TEST(Damaged, DiffusionNamesTheDataset) {
       });
 }
 
-// Earlier builds did not count those that the cap ended among the survivors of a diffusion.
-TEST(Damaged, FatesOfEarlierBuildsAreNot) {
-  const Shell shell;
-  ASSERT_EQ(shell("$carom diffusion lorentz-triangular --trajectories 50 --t-max 9 --collisions 3 "
-                  "-o a.h5")
-                .status,
-            0);
-  {
-    Damage damage(shell.folder() + "/a.h5");
-    damage.set_first("fates/survived", 0);
-  }
-  const Outcome o = shell("$carom diffusion --resume a.h5 --json");
-  EXPECT_EQ(json_value(o.out, "survived"), "50") << o.err;
-  EXPECT_EQ(json_value(o.out, "capped"), "50");
-}
-
 // The checksums of datasets: a changed byte in the sum of hashes, which nothing else would tell.
 TEST(Damaged, ABitOfTheDigestIsToldOf) {
   const Shell shell;

@@ -151,12 +151,7 @@ TEST(StateErrors, SayWhyThereIsNone) {
   const SingleRunResult parts = run_single(system, observer, options);
   ASSERT_TRUE(parts.state_error);
   EXPECT_EQ(parts.state_error->position, whole.state_error->position);
-  options.trajectory.reset();
-  const SingleRunResult unknown = run_single(system, observer, options);
-  EXPECT_FALSE(unknown.state_error);
-  EXPECT_NE(unknown.no_state_error.find("which start was drawn"), std::string::npos);
   options.interrupted = [] { return true; };  // at once: while the start is drawn again
-  options.trajectory = 0;
   EXPECT_NE(run_single(system, observer, options).no_state_error.find("interrupted"),
             std::string::npos);
   options.estimate_state_error = false;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analyses/escape/records.hpp"
 #include "analyses/systems.hpp"
 #include "carom/analyses/diffusion.hpp"
 #include "carom/analyses/escape.hpp"
@@ -18,10 +19,7 @@ TEST(LostReports, AreThoseOfTheLowestIndices) {
   EscapeOptions options;
   options.threads = 1;
   std::vector<TrajectoryRecord> records;
-  options.records = [&](const std::vector<TrajectoryRecord>& more) {
-    records.insert(records.end(), more.begin(), more.end());
-  };
-  const EscapeResult one = run_escape(system, options);
+  const EscapeResult one = run_escape(system, options, records);
   ASSERT_GT(one.counts.unresolved, 20u);
   ASSERT_LT(one.counts.unresolved, 400u);
   std::vector<std::uint64_t> first;

@@ -21,7 +21,7 @@
 #include "carom/analyses/section.hpp"
 #include "carom/files/system_file.hpp"
 #include "carom/orbits/periodic_orbit.hpp"
-#include "files/describe/reference.hpp"
+#include "files/reference.hpp"
 
 namespace carom::files {
 namespace {

@@ -1,7 +1,11 @@
 // The resolved system reads back as the same system.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 #include <sstream>
+#include <string>
+#include <string_view>
 
 #include "system_text.hpp"
 
@@ -166,6 +170,34 @@ TEST(RoundTrip, NumbersStayAsWritten) {
       read_system(square("[run]\nt_max = 1.50e2\n"), "test.toml").resolved_toml;
   EXPECT_NE(resolved.find("t_max = 1.50e2\n"), std::string::npos);
   EXPECT_NE(resolved.find("from = \"(1.50e2)/1000\", to = 1.50e2"), std::string::npos);
+}
+
+/// The table of keys as Markdown.
+std::string key_table_markdown() {
+  // There may be several of these, each under [[its name]].
+  const auto heading = [](std::string_view section) {
+    const bool list = section == "table.obstacle" || section == "table.hole" ||
+                      section == "table.wall" || section == "table.region" ||
+                      section == "table.loop" || section == "injection" || section == "potential";
+    return list ? fmt::format("[[{}]]", section) : std::string(section);
+  };
+  std::string page;
+  std::string_view section = "none";
+  for (const KeyDescription& key : key_table()) {
+    if (key.section != section) {
+      section = key.section;
+      page += section.empty() ? "### Above all sections\n\n"
+                              : fmt::format("\n### {}\n\n", heading(section));
+      page += "| key | for | type | default | meaning |\n|---|---|---|---|---|\n";
+    }
+    std::string kinds(key.kind);
+    for (std::size_t at = 0; (at = kinds.find('|', at)) != std::string::npos;)
+      kinds.replace(at, 1, ", ");
+    const std::string fallback = key.fallback.empty() ? "" : fmt::format("`{}`", key.fallback);
+    page += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.key, kinds, key.type, fallback,
+                        key.meaning);
+  }
+  return page;
 }
 
 TEST(KeyTable, IsTheOneInTheGuide) {

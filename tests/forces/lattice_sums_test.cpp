@@ -7,6 +7,7 @@
 #include <random>
 
 #include "forces/bumps.hpp"
+#include "forces/copies.hpp"
 #include "forces/formulas.hpp"
 #include "forces/lattice_bumps.hpp"
 #include "forces/nearest_copy.hpp"

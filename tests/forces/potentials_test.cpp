@@ -10,6 +10,7 @@
 #include "carom/files/system_file.hpp"
 #include "carom/forces/force_field.hpp"
 #include "forces/bumps.hpp"
+#include "forces/copies.hpp"
 #include "forces/formulas.hpp"
 
 namespace carom {

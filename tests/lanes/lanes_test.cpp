@@ -229,7 +229,7 @@ Totals compare_on_tables(Shape shape, int turn, long tables) {
     for (int i = 0; i < 150; ++i)
       all.starts.push_back(random_start(table, world, dice, size, speed, omega));
     if (dice.coin()) add_times(all, table, dice);
-    EXPECT_TRUE(FreeLanes::suits(table, {all.starts[0].particle}));
+    EXPECT_EQ(FreeLanes::hindrance(table, {all.starts[0].particle}), "");
     compare(table, all, totals, std::to_string(k).c_str());
   }
   EXPECT_GT(totals.fates[Fate::capped], 100);
@@ -363,7 +363,7 @@ TEST(LaneRuns, CrossTheCellsOfLattices) {
     if (dice.coin()) all.t_end = dice.spread(1.0, 300.0) * size;
     for (int i = 0; i < 100; ++i)
       all.starts.push_back(random_start(table, world, dice, 3.0 * size, 1.0));
-    if (!FreeLanes::suits(table, {all.starts[0].particle})) continue;
+    if (!FreeLanes::hindrance(table, {all.starts[0].particle}).empty()) continue;
     if (dice.coin()) add_times(all, table, dice);
     const Totals before = totals;
     compare(table, all, totals, std::to_string(k).c_str());
@@ -410,7 +410,7 @@ TEST(LaneRuns, TurnAmongTheDiscsOfLattices) {
           random_start(table, world, dice, 3.0 * size, speed, dice.sign() * speed / radius));
     for (LaneStart& start : all.starts)
       start.particle.omega = std::copysign(start.particle.omega, all.starts[0].particle.omega);
-    if (!FreeLanes::suits(table, {all.starts[0].particle})) continue;
+    if (!FreeLanes::hindrance(table, {all.starts[0].particle}).empty()) continue;
     ++tables;
     if (dice.coin()) add_times(all, table, dice);
     compare(table, all, totals, std::to_string(k).c_str());

@@ -32,7 +32,7 @@ TEST_P(LongRunsInLanes, LoseNoParticle) {
   const System system = read_system(text, GetParam().name).system;
   World world(*system.table);
   const Sampler sampler(system);
-  ASSERT_TRUE(FreeLanes::suits(*system.table, system.particles));
+  ASSERT_EQ(FreeLanes::hindrance(*system.table, system.particles), "");
   FreeLanes lanes(*system.table, system.particles, widest_instruction_set());
   lanes.limit_hits(hits_each);
   std::uint64_t next = 0, capped = 0, singular = 0, pinned = 0;

@@ -216,7 +216,7 @@ std::vector<int> compare(const System& system, std::uint64_t count, const std::s
     expected.push_back(by_world(system, starts.back(), limit));
     ++fates[static_cast<std::size_t>(expected.back().fate)];
   }
-  EXPECT_TRUE(SoftLanes::suits(*system.table, system.dynamics, system.particles));
+  EXPECT_EQ(SoftLanes::hindrance(*system.table, system.dynamics, system.particles), "");
   for (const InstructionSet set : available_instruction_sets()) {
     SoftLanes lanes(*system.table, system.dynamics, system.particles[0], set);
     lanes.limit_hits(limit);
@@ -272,7 +272,7 @@ TEST(SoftLanes, RefusesWhatItCannotDo) {
   std::vector<Particle> two(2);
   two[1].mass = 2.0;
   const System well = system_of(cases[1], 1.0);
-  EXPECT_FALSE(SoftLanes::suits(*well.table, well.dynamics, two));
+  EXPECT_NE(SoftLanes::hindrance(*well.table, well.dynamics, two), "");
 }
 
 }  // namespace

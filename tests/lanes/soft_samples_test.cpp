@@ -76,7 +76,7 @@ void compare(const System& system, std::size_t count, const std::string& name) {
     starts.push_back({k, system.particles[0], sampler.draw(world, k, 0), 0});
     expected.push_back(by_world(system, system.particles[0], starts.back().state, times));
   }
-  ASSERT_TRUE(SoftLanes::suits(*system.table, system.dynamics, system.particles));
+  ASSERT_EQ(SoftLanes::hindrance(*system.table, system.dynamics, system.particles), "");
   for (const InstructionSet set : available_instruction_sets()) {
     SoftLanes lanes(*system.table, system.dynamics, system.particles[0], set);
     std::vector<std::size_t> sampled(count, 0);
@@ -107,7 +107,7 @@ TEST(SoftLanes, KnowEverySplittingScheme) {
     const System system = system_of(
         "antidot-magnetic", {{"integrator.scheme", "\"" + std::string(scheme.name) + "\""}});
     if (scheme.form == Scheme::Form::spreiter_walter)
-      EXPECT_FALSE(SoftLanes::suits(*system.table, system.dynamics, system.particles));
+      EXPECT_NE(SoftLanes::hindrance(*system.table, system.dynamics, system.particles), "");
     else
       compare(system, 9, std::string(scheme.name));
   }
@@ -183,10 +183,10 @@ TEST(SoftLanes, MeetWallsWithinSteps) { compare(among_walls(true), 150, "discs a
 TEST(SoftLanes, RefuseWhatTheyCannotDo) {
   for (const char* name : {"stadium", "coulomb-circle", "wigner"}) {
     const System system = system_of(name);
-    EXPECT_FALSE(SoftLanes::suits(*system.table, system.dynamics, system.particles)) << name;
+    EXPECT_NE(SoftLanes::hindrance(*system.table, system.dynamics, system.particles), "") << name;
   }
   const System adaptive = system_of("soft-lorentz", {{"integrator.scheme", "\"arkode\""}});
-  EXPECT_FALSE(SoftLanes::suits(*adaptive.table, adaptive.dynamics, adaptive.particles));
+  EXPECT_NE(SoftLanes::hindrance(*adaptive.table, adaptive.dynamics, adaptive.particles), "");
 }
 
 // A particle that runs away to infinity is reported, and the others do not notice.

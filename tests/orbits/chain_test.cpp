@@ -10,7 +10,6 @@
 #include "carom/table/make.hpp"
 #include "orbits/itinerary.hpp"
 #include "orbits/newton.hpp"
-#include "orbits/shortest.hpp"
 #include "random_tables.hpp"
 
 namespace carom::orbits {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "analyses/escape/records.hpp"
 #include "analyses/systems.hpp"
 #include "carom/analyses/diffusion.hpp"
 #include "carom/analyses/escape.hpp"
@@ -196,10 +197,7 @@ TEST(Injection, EnsemblesCountAllAndDoNotDependOnThreads) {
   std::vector<TrajectoryRecord> records;
   EscapeOptions options;
   options.threads = 1;
-  options.records = [&](const std::vector<TrajectoryRecord>& block) {
-    records.insert(records.end(), block.begin(), block.end());
-  };
-  const EscapeResult one = run_escape(system, options);
+  const EscapeResult one = run_escape(system, options, records);
   EscapeOptions three;
   three.threads = 3;
   three.block = 7;

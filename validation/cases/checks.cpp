@@ -17,6 +17,7 @@
 #include "carom/analyses/run.hpp"
 #include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"
+#include "carom/base/exact_sum.hpp"
 #include "carom/base/stopwatch.hpp"
 #include "carom/events/world.hpp"
 #include "carom/starts/sampler.hpp"
@@ -41,13 +42,11 @@ void judge(Check& c, Allowance allowance) {
   c.passed = c.complete && c.lost == 0 && c.unresolved == 0 && agrees(c, error, allowance);
 }
 
-using Records = std::vector<TrajectoryRecord>;
-
 // Runs the ensemble and fills in everything but the value.
 EscapeResult run(const System& system, const CheckOptions& options, Check& c,
-                 const std::function<void(const Records&)>& records = {}) {
+                 EscapeJournal* journal = nullptr) {
   EscapeOptions how;
-  how.records = records;
+  how.journal = journal;
   how.threads = options.threads;
   how.interrupted = options.interrupted;
   EscapeResult result = run_escape(system, how);
@@ -331,16 +330,21 @@ MomentPoint last_point(const DiffusionResult& result) {
 Check check_recurrence(const System& system, double expected, const CheckOptions& options) {
   Check c;
   c.expected = expected;
-  double sum = 0.0, squares = 0.0;
-  run(system, options, c, [&](const Records& records) {
-    for (const TrajectoryRecord& one : records) {
-      sum += one.time;
-      squares += one.time * one.time;
+  struct Times : EscapeJournal {
+    bool wants_records() const override { return true; }
+    void block(TrajectoryRange, std::vector<TrajectoryRecord>&& records) override {
+      for (const TrajectoryRecord& one : records) {
+        sum.add(one.time);
+        squares.add(one.time * one.time);
+      }
     }
-  });
+    void save(const EscapeResult&) override {}
+    ExactSum sum, squares;
+  } times;
+  run(system, options, c, &times);
   const double n = static_cast<double>(system.run.trajectories);
-  c.value = sum / n;
-  c.error = std::sqrt((squares / n - c.value * c.value) / n);
+  c.value = times.sum.value() / n;
+  c.error = std::sqrt((times.squares.value() / n - c.value * c.value) / n);
   judge(c, {});
   return c;
 }

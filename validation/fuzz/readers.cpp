@@ -29,13 +29,13 @@
 #include <string>
 #include <vector>
 
-#include "carom/analyses/compare/archive.hpp"
+#include "carom/analyses/compare.hpp"
 #include "carom/analyses/kinds.hpp"
-#include "carom/analyses/orbits/archive.hpp"
-#include "carom/analyses/relax/archive.hpp"
+#include "carom/analyses/orbits.hpp"
+#include "carom/analyses/relax.hpp"
 #include "carom/analyses/run/archive.hpp"
 #include "carom/analyses/run/certified_archive.hpp"
-#include "carom/analyses/section/archive.hpp"
+#include "carom/analyses/section.hpp"
 #include "carom/base/error.hpp"
 #include "carom/files/archive.hpp"
 #include "carom/files/ensembles.hpp"

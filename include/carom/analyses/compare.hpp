@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "carom/files/archive.hpp"
 #include "carom/system/system.hpp"
 
 namespace carom {
@@ -121,5 +122,17 @@ void name_best_schemes(Comparison&);
 /// injections, unknown schemes, a start that ends at once, and where no step resolves the forces;
 /// SamplingStopped.
 Comparison compare(const System&, const ComparePlan& = {});
+
+/// Writes aside and renames: the archive is there whole or not at all.
+void write_comparison(const std::string& file, const LoadedSystem&, const Provenance&,
+                      const Comparison&, bool force, ArchiveLock = nullptr);
+
+/// A comparison as its archive holds it.
+struct StoredComparison {
+  std::string system_name, system_toml, engine;
+  Comparison result;
+};
+/// Throws InputError for anything but the archive of a comparison.
+StoredComparison read_comparison(const std::string& file);
 
 }  // namespace carom

@@ -1,7 +1,6 @@
 // Diffusion of an ensemble of independent trajectories.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 

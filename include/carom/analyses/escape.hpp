@@ -1,10 +1,6 @@
 // Escape statistics of an ensemble of independent trajectories.
 #pragma once
 
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "carom/analyses/escape/decay.hpp"
 #include "carom/analyses/escape/survival.hpp"
 #include "carom/lanes/lane_effort.hpp"
@@ -24,17 +20,12 @@ struct EscapeResult : EnsembleResult {
 };
 
 using EscapeJournal = EnsembleJournal<EscapeResult>;
+using EscapeOptions = EnsembleOptions<EscapeResult>;
 
-/// How to run, and where records of trajectories go; no influence on the result.
-struct EscapeOptions : EnsembleOptions<EscapeResult> {
-  /// If set, receives each block's records in increasing order of index (one thread at a time).
-  std::function<void(const std::vector<TrajectoryRecord>&)> records;
-};
-
-/// Runs the ensemble, or the part that is asked for. Where a trajectory has several
-/// particles, each of them is an entry of its own in every count; one
-/// that is injected counts from the time 0 on as still there. Throws InputError where the
-/// initial condition is impossible, and whatever `records` and the journal throw.
+/// Runs the ensemble, or the part that is asked for. Where a trajectory has several particles, each
+/// of them is an entry of its own in every count; one that is injected counts from the time 0 on as
+/// still there. Throws InputError where the initial condition is impossible, and whatever the
+/// journal throws.
 EscapeResult run_escape(const System&, const EscapeOptions& = {});
 
 /// How the survival of a run of this system decays, in the window of System::run or as late as the

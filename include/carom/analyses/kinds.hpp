@@ -25,7 +25,7 @@ inline const char* kind_of(const ReturnsResult&) { return "returns"; }
 
 /// Flies an ensemble of its kind.
 inline EscapeResult flown(const System& system, const EnsembleOptions<EscapeResult>& how) {
-  return run_escape(system, {how, {}});
+  return run_escape(system, how);
 }
 inline DiffusionResult flown(const System& system, const EnsembleOptions<DiffusionResult>& how) {
   return run_diffusion(system, how);
@@ -38,8 +38,7 @@ inline ReturnsResult flown(const System& system, const EnsembleOptions<ReturnsRe
 }
 
 /// Calls `visit` with std::type_identity of the result of that kind. False: there is no such kind.
-template <class Visit>
-bool for_kind(std::string_view kind, Visit visit) {
+bool for_kind(std::string_view kind, auto visit) {
 #define CAROM_IF_KIND(Result)            \
   if (kind == kind_of(Result())) {       \
     visit(std::type_identity<Result>()); \

@@ -1,7 +1,6 @@
 // Lyapunov exponents of an ensemble, and which of its orbits are chaotic.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>

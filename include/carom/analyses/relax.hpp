@@ -1,12 +1,14 @@
-// Equilibria: where all forces vanish, their energies and small oscillations.
+// Equilibria: where all forces vanish, their energies and small oscillations; their archive.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "carom/base/fields.hpp"
+#include "carom/files/archive.hpp"
 #include "carom/geometry/vector.hpp"
 #include "carom/system/system.hpp"
 
@@ -87,5 +89,17 @@ struct Fields<RelaxResult> {
 /// Minimises the potential energy from the starts of the system (docs/physics/equilibria.md). The
 /// same equilibria on any number of threads. Throws InputError where nothing acts.
 RelaxResult run_relax(const System&, const RelaxOptions& = {});
+
+/// Writes /equilibria: aside, and renamed when it is whole.
+void write_equilibria(const std::string& file, const LoadedSystem&, const Provenance&,
+                      const RelaxResult&, bool force, ArchiveLock = nullptr);
+
+/// Equilibria as their archive holds them.
+struct StoredEquilibria {
+  std::string system_name, system_toml;
+  RelaxResult result;
+};
+/// Throws InputError for anything but such an archive.
+StoredEquilibria read_equilibria(const std::string& file);
 
 }  // namespace carom

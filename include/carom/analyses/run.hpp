@@ -57,10 +57,9 @@ struct Fields<ParticleProgress> {
           "vx", "length/time", "Velocity", [](auto& p) -> auto& { return p.state.velocity.x; }),
       field_as<double>(
           "vy", "length/time", "Velocity", [](auto& p) -> auto& { return p.state.velocity.y; }),
-      later(field(
-          "speed", "length/time",
-          "Speed that reflections conserve; the length of the velocity may differ by rounding",
-          &P::speed)),
+      field("speed", "length/time",
+            "Speed that reflections conserve; the length of the velocity may differ by rounding",
+            &P::speed),
       field_as<Whole>(
           "cell_first", "1", "Cell of the lattice",
           [](auto& p) -> auto& { return p.state.cell.first; }),
@@ -83,21 +82,21 @@ struct Fields<ParticleProgress> {
       field_as<Whole>("contacts", "1", "Contacts with other hard discs so far", &P::contacts),
       field_as<Whole>("last_wall", "1", "Wall of the last reflection, -1: none", &P::last_wall),
       field_as<Whole>("hole", "1", "Hole it escaped through, -1: none", &P::hole),
-      later(field_as<double>(
+      field_as<double>(
           "energy_change", "energy", "Change of the energy since the start",
-          [](auto& p) -> auto& { return p.energy.change; })),
-      later(field_as<double>(
+          [](auto& p) -> auto& { return p.energy.change; }),
+      field_as<double>(
           "energy_largest", "energy", "Largest change seen",
-          [](auto& p) -> auto& { return p.energy.largest; })),
-      later(field_as<double>(
+          [](auto& p) -> auto& { return p.energy.largest; }),
+      field_as<double>(
           "energy_kinetic", "energy", "Largest kinetic energy seen",
-          [](auto& p) -> auto& { return p.energy.kinetic; })),
-      later(field_as<double>(
+          [](auto& p) -> auto& { return p.energy.kinetic; }),
+      field_as<double>(
           "energy_change_low", "energy", "Trailing double of energy_change",
-          [](auto& p) -> auto& { return p.energy.change_low; })),
-      later(field_as<double>(
+          [](auto& p) -> auto& { return p.energy.change_low; }),
+      field_as<double>(
           "energy_last", "energy", "Energy of its group after the latest step; NaN: not known",
-          [](auto& p) -> auto& { return p.energy.last; })),
+          [](auto& p) -> auto& { return p.energy.last; }),
       field_as<Whole>("fate", "1", "Index into the attribute `names`", &P::fate)};
 };
 
@@ -122,14 +121,14 @@ struct Evaluations {
 template <>
 struct Fields<Evaluations> {
   static constexpr std::tuple list{
-      later(field("evaluations_going_on", "1",
-                  "Evaluations from which a continued run counts, without those for states within "
-                  "unfinished steps",
-                  &Evaluations::count)),
-      later(field_as<std::uint64_t>(
+      field("evaluations_going_on", "1",
+            "Evaluations from which a continued run counts, without those for states within "
+            "unfinished steps",
+            &Evaluations::count),
+      field_as<std::uint64_t>(
           "predicted", "1",
           "1: those of the steps under way are among them; 0: an interrupt dropped them",
-          &Evaluations::predicted))};
+          &Evaluations::predicted)};
 };
 
 /// How to run one trajectory, and from where to go on.
@@ -143,7 +142,7 @@ struct SingleRunOptions {
       interrupted;  ///< asked between events, and while starts are drawn: SamplingStopped
   std::function<void(const World&)> started;  ///< called once, when all starts are in the world
   /// Index: which start is drawn, also of the run that is resumed. None: it is not known any more.
-  std::optional<std::uint64_t> trajectory = 0;
+  std::uint64_t trajectory = 0;
   /// Under forces: costs up to three times the run from its start (run/state_error.hpp).
   bool estimate_state_error = false;
   /// What the system's doubles were rounded from; null: they are what is meant.

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "carom/events/decisions.hpp"
 #include "carom/events/energy.hpp"
 #include "carom/events/step_counts.hpp"
+#include "carom/files/archive.hpp"
 #include "carom/lanes/instruction_set.hpp"
 #include "carom/results/fate_counts.hpp"
 #include "carom/system/section.hpp"
@@ -65,5 +67,30 @@ std::uint64_t section_orbits(const System&);
 /// Follows trajectories 0 … section_orbits - 1 until each has its points, or until t_max. The same
 /// points on any number of threads.
 SectionResult run_section(const System&, const SectionOptions& = {});
+
+/// A section as its archive holds it; times, decisions and steps are not among it.
+struct StoredSection {
+  std::string system_name, system_toml, engine;
+  SectionResult result;
+  std::vector<SectionPoint> points;
+};
+/// Throws InputError for anything but the archive of a section.
+StoredSection read_section(const std::string& file);
+
+/// The points of a section, orbit after orbit; written aside, and renamed when finished.
+class SectionArchive {
+ public:
+  SectionArchive(const std::string& file, const LoadedSystem&, const Provenance&, bool force,
+                 ArchiveLock = nullptr);
+  SectionArchive(const SectionArchive&) = delete;
+  ~SectionArchive();
+
+  void append(const std::vector<SectionPoint>&);
+  void finish(const SectionResult&, const std::string& status);
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
 
 }  // namespace carom

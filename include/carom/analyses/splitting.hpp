@@ -1,7 +1,6 @@
 // Rare events by population splitting: survival far beyond what independent trajectories reach.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -164,8 +163,5 @@ bool is_certain(const Mean& cost, std::size_t repetitions);
 std::vector<SplitPoint> survival(const SplittingResult&);
 /// Escapes per unit time between report times; none by hits.
 std::vector<SplitRate> escape_rate(const SplittingResult&);
-/// -ln(P(last) / P(first)) / (last - first) over the reports first <= at <= last: the rate of
-/// decay.
-Extrapolated decay_rate(const SplittingResult&, std::size_t first, std::size_t last);
 
 }  // namespace carom

@@ -24,14 +24,10 @@ struct Field {
   using kept_type = Kept;
   Label label;
   At at;
-  bool later = false;  ///< archives of earlier versions lack it: then it keeps its default
+  bool later = false;  ///< archives may lack it: then it keeps its default
 
-  template <class Struct>
-  Kept kept(const Struct& s) const {
-    return static_cast<Kept>(std::invoke(at, s));
-  }
-  template <class Struct>
-  void set(Struct& s, Kept value) const {
+  Kept kept(const auto& s) const { return static_cast<Kept>(std::invoke(at, s)); }
+  void set(auto& s, Kept value) const {
     auto& place = std::invoke(at, s);
     place = static_cast<std::remove_reference_t<decltype(place)>>(value);
   }

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "carom/base/exact_number.hpp"
-#include "carom/geometry/vector.hpp"
 #include "carom/table/table.hpp"
 #include "carom/table/table_spec.hpp"
 

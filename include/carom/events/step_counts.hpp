@@ -40,11 +40,11 @@ struct Fields<StepCounts> {
       field("steps", "1", "Steps and parts of steps", &S::steps),
       field("force_evaluations", "1", "Evaluations of the forces", &S::force_evaluations),
       field("unresolved_steps", "1", "Steps too long to resolve the forces", &S::unresolved),
-      later(field("halved_steps", "1", "Parts of halved steps", &S::halved)),
+      field("halved_steps", "1", "Parts of halved steps", &S::halved),
       field("first_unresolved", "time", "Start of the earliest unresolved step",
             &S::first_unresolved),
-      later(field("shortest_step", "time", "The shortest part of a halved step; 0: none",
-                  &S::shortest_part))};
+      field("shortest_step", "time", "The shortest part of a halved step; 0: none",
+            &S::shortest_part)};
 };
 
 /// Evaluations of the forces that a trajectory which goes on makes again: for states within the

@@ -1,10 +1,7 @@
 // Archives (HDF5): what they have in common. docs/guide/archive.md is the schema.
 #pragma once
 
-#include <cstdint>
-#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -27,8 +27,6 @@ struct KeyDescription {
 };
 /// The one table of keys: parser, hints, --set and the guide's page are made from it.
 const std::vector<KeyDescription>& key_table();
-/// The table as Markdown, for the guide (docs/guide/system-file.md holds it; a test compares).
-std::string key_table_markdown();
 
 /// A system that the program carries with it, as the text of its file.
 struct BuiltinSystem {

@@ -13,13 +13,10 @@ namespace carom {
 
 class FreeLanes : public Lanes {
  public:
-  /// Can lanes fly such particles on that table? Straight flights, or Larmor circles that all turn
-  /// the same way, between segments, circles and ellipses: at most 64 pieces. On a lattice among
-  /// discs that lie inside the cell; Larmor circles there that come to at most 64 pieces.
-  static bool suits(const Table& table, const std::vector<Particle>& particles) {
-    return hindrance(table, particles).empty();
-  }
-  /// What keeps them out of lanes, as a phrase ("more than 64 walls…"); "" where nothing does.
+  /// What keeps such particles out of lanes, as a phrase ("more than 64 walls…"); "" where nothing
+  /// does: straight flights, or Larmor circles that all turn the same way, between segments,
+  /// circles and ellipses: at most 64 pieces. On a lattice among discs that lie inside the cell;
+  /// Larmor circles there that come to at most 64 pieces.
   static std::string hindrance(const Table&, const std::vector<Particle>&);
 
   /// `particles` suit, and every start is one of them. Keeps a reference to the table, which must

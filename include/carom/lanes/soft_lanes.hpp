@@ -14,14 +14,9 @@ namespace carom {
 /// A lane takes whole steps that meet no wall; all other steps are a World's.
 class SoftLanes : public Lanes {
  public:
-  /// Can such particles be stepped so? Where forces act everywhere, and nothing but forces, a
-  /// magnetic field and walls: no interaction, a fixed step, walls = "reflect". The particles are
-  /// accelerated alike.
-  static bool suits(const Table& table, const Dynamics& dynamics,
-                    const std::vector<Particle>& particles) {
-    return hindrance(table, dynamics, particles).empty();
-  }
-  /// What keeps them out of lanes, as a phrase; "" where nothing does.
+  /// What keeps such particles out of lanes, as a phrase; "" where nothing does: forces act
+  /// everywhere, and nothing but forces, a magnetic field and walls: no interaction, a fixed step,
+  /// walls = "reflect". The particles are accelerated alike.
   static std::string hindrance(const Table&, const Dynamics&, const std::vector<Particle>&);
 
   /// `particle` is of the kind that all starts are. Keeps references to table and dynamics, which

@@ -58,10 +58,10 @@ struct Fields<TrajectoryRecord> {
       field("t", "time", "Time of the end: escape, last hit if unbounded, else the time reached",
             &R::time),
       field("hits", "1", "Reflections", &R::hits),
-      later(field("wall", "1", "Wall of the start, -1: off the walls", &R::wall)),
-      later(field("s", "length", "Start: arc length along its wall, NaN: off walls", &R::s)),
-      later(field("v_parallel", "length/time", "Start: velocity along its wall, NaN: off walls",
-                  &R::v_parallel))};
+      field("wall", "1", "Wall of the start, -1: off the walls", &R::wall),
+      field("s", "length", "Start: arc length along its wall, NaN: off walls", &R::s),
+      field("v_parallel", "length/time", "Start: velocity along its wall, NaN: off walls",
+            &R::v_parallel)};
 };
 /// Of exponents, too.
 struct ExponentFields {

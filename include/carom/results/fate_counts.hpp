@@ -30,13 +30,13 @@ template <>
 struct Fields<FateCounts> {
   using C = FateCounts;
   static constexpr std::tuple list{
-      later(field("survived", "1", "Still inside at the end", &C::survived)),
+      field("survived", "1", "Still inside at the end", &C::survived),
       field("pinned", "1", "Survivors on a cyclotron orbit that never hits", &C::pinned),
       field("capped", "1", "Survivors ended by the cap on hits", &C::capped),
       field("escaped", "1", "Left through a hole, or to infinity", &C::escaped),
       field("unbounded", "1", "Escaped to infinity: no wall follows", &C::unbounded),
       field("singular", "1", "Ended where no continuation is defined", &C::singular),
-      later(field("unresolved", "1", "Ended where integration could not follow", &C::unresolved)),
+      field("unresolved", "1", "Ended where integration could not follow", &C::unresolved),
       field("lost", "1", "Internal errors: always 0", &C::lost)};
 };
 

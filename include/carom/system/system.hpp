@@ -83,6 +83,10 @@ struct System {
 
   /// Are the starts quasi-random, and so not independent?
   bool quasi_random() const { return initial.kind == InitialCondition::Kind::sobol; }
+  /// Do potentials or interactions act?
+  bool has_forces() const { return dynamics.forces && !dynamics.forces->empty(); }
+  /// Is motion integrated anywhere?
+  bool is_integrated() const { return dynamics.everywhere || has_forces(); }
   /// Are the particles hard discs?
   bool of_discs() const { return dynamics.forces && !dynamics.forces->disc_radii().empty(); }
 };

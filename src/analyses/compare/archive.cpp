@@ -1,15 +1,15 @@
-#include "carom/analyses/compare/archive.hpp"
+#include "carom/analyses/compare.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "analyses/compare/columns.hpp"
 #include "carom/base/error.hpp"
-#include "files/checkpoint/ensemble_files.hpp"
+#include "files/checkpoint/work_folder.hpp"
 #include "files/hdf5/archive_file.hpp"
 #include "files/hdf5/checksums.hpp"
+#include "files/hdf5/fields.hpp"
 
 namespace carom {
 
@@ -163,7 +163,7 @@ StoredComparison read_comparison(const std::string& name) {
     result.schemes.at(static_cast<std::size_t>(row.scheme)).runs.push_back(row);
   }
   name_best_schemes(result);
-  result.complete = hdf5::read_integer_attribute(file.get(), "complete", name) != 0;
+  result.complete = hdf5::read_attribute<std::int64_t>(file.get(), "complete", name) != 0;
   const Seconds seconds = ArchiveFile::read_seconds(provenance.get(), name);
   result.seconds = seconds.wall;
   result.cpu_seconds = seconds.cpu;

@@ -2,11 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
-#include <vector>
 
 #include "carom/analyses/compare.hpp"
-#include "files/hdf5/fields.hpp"
 
 namespace carom::analyses {
 

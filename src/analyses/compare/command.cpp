@@ -1,5 +1,4 @@
 // carom compare: integrators on a user's system.
-#include "analyses/compare/command.hpp"
 
 #include <fmt/format.h>
 
@@ -10,14 +9,13 @@
 
 #include "analyses/compare/report.hpp"
 #include "base/parts.hpp"
-#include "carom/analyses/compare/archive.hpp"
+#include "carom/analyses/compare.hpp"
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
 #include "carom/integrators/plan.hpp"
-#include "carom/integrators/scheme_list.hpp"
+#include "carom/integrators/scheme.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
-#include "cli/number_list.hpp"
 #include "files/progress.hpp"
 
 namespace carom::cli {
@@ -59,8 +57,7 @@ ComparePlan compare_plan(const Options& options) {
 
 LoadedSystem system_of_compare(const Options& options) {
   LoadedSystem loaded = load_typed(options);
-  Dynamics& dynamics = loaded.system.dynamics;
-  if (!dynamics.forces || dynamics.forces->empty()) dynamics.everywhere = true;  // integrated, too
+  if (!loaded.system.has_forces()) loaded.system.dynamics.everywhere = true;  // integrated, too
   return loaded;
 }
 

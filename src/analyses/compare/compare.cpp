@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 
 #include "analyses/compare/orders.hpp"
 #include "analyses/compare/setting.hpp"
-#include "analyses/compare/step_map.hpp"
 #include "carom/base/error.hpp"
 #include "carom/base/stopwatch.hpp"
 #include "carom/integrators/scheme.hpp"

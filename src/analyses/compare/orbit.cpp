@@ -105,7 +105,7 @@ Runs::Runs(const System& system, std::uint64_t trajectory, std::function<bool()>
   starts_ = Sampler(system, stopped_).draw_all(world, trajectory);
 }
 
-bool Runs::free() const { return !system_.dynamics.forces || system_.dynamics.forces->empty(); }
+bool Runs::free() const { return !system_.has_forces(); }
 
 double Runs::weight() const {
   const double n = static_cast<double>(system_.particles.size());

@@ -1,9 +1,10 @@
-// From errors at several steps to orders and costs.
+// From errors at several steps to orders and costs; defects of areas.
 #pragma once
 
 #include <optional>
 #include <vector>
 
+#include "analyses/compare/setting.hpp"
 #include "carom/analyses/compare.hpp"
 
 namespace carom::analyses {
@@ -17,5 +18,11 @@ MeasuredOrder measured_order(const std::vector<ComparedRun>& runs,
 
 /// The least work from which on the error stays below the wanted one.
 std::optional<WorkForError> work_for(const std::vector<ComparedRun>& runs, double error);
+
+/// The largest defect of the form sum m (dx^dvx + dy^dvy - omega dx^dy) over steps of that length
+/// from places of the reference orbit and pairs of displacements, divided by the form's size, and
+/// the error of the differences. Nothing where every step meets a wall.
+std::optional<MeasuredNumber> defect_of_areas(const Runs&, const Setting&, const Dynamics&,
+                                              double step);
 
 }  // namespace carom::analyses

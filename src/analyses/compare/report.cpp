@@ -9,10 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "carom/analyses/compare/archive.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
-#include "cli/reports/grounds.hpp"
+#include "cli/reports/doubts.hpp"
 
 namespace carom::cli {
 

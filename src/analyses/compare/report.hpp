@@ -4,6 +4,7 @@
 #include <string>
 
 #include "carom/analyses/compare.hpp"
+#include "cli/options.hpp"
 #include "cli/outcome.hpp"
 #include "files/json.hpp"
 
@@ -22,5 +23,8 @@ struct ComparisonOutcome final : Outcome {
 
   Comparison result;
 };
+
+/// Throws InputError for steps, tolerances and errors that are none.
+ComparePlan compare_plan(const Options&);
 
 }  // namespace carom::cli

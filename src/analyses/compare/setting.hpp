@@ -1,8 +1,6 @@
 // Until when schemes are compared, with which steps, and with what.
 #pragma once
 
-#include <vector>
-
 #include "analyses/compare/orbit.hpp"
 
 namespace carom::analyses {

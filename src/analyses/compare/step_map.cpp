@@ -1,4 +1,4 @@
-#include "analyses/compare/step_map.hpp"
+#include "analyses/compare/orders.hpp"
 
 #include <algorithm>
 #include <array>

@@ -41,8 +41,7 @@ void refuse_impossible(const System& system) {
     throw InputError(Place{"", 0, 0, "table.wall"},
                      "walls change the speeds, and lengths of flights count one speed",
                      "another law than \"thermal\"");
-  const Dynamics& d = system.dynamics;
-  if (system.run.free_paths && (d.everywhere || (d.forces && !d.forces->empty())))
+  if (system.run.free_paths && system.is_integrated())
     throw InputError(Place{"", 0, 0, "run.free_paths"},
                      "flights are free between hits of walls alone, and other forces act",
                      "free particles, one by one, with or without a magnetic field");

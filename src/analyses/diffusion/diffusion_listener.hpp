@@ -1,7 +1,6 @@
 // Adds up displacements, trajectory by trajectory.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -1,11 +1,7 @@
 #include "carom/analyses/diffusion/free_paths.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <limits>
 
-#include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"
 #include "results/distribution.hpp"
 #include "results/numbers.hpp"

@@ -44,7 +44,7 @@ Horizon horizon_of(const System& system) {
   Horizon horizon;
   const bool bent = std::all_of(system.particles.begin(), system.particles.end(),
                                 [](const Particle& p) { return p.omega != 0.0; });
-  const bool forces = system.dynamics.forces && !system.dynamics.forces->empty();
+  const bool forces = system.has_forces();
   switch (table.extent) {
     case Extent::bounded:
       horizon.kind = Horizon::Kind::bounded;

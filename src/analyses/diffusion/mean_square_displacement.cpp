@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "carom/base/elementary.hpp"
@@ -153,8 +152,7 @@ DisplacementMoments::DisplacementMoments(const DisplacementSums& sums, std::size
 }
 
 // Delete-one jackknife over groups of (nearly) equal size.
-template <class Statistic>
-double DisplacementMoments::error_of(Statistic statistic, double whole) const {
+double DisplacementMoments::error_of(auto statistic, double whole) const {
   if (without_.size() < 2) return nan;
   double sum = 0;
   for (const Means& means : without_) {

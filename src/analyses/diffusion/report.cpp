@@ -6,12 +6,10 @@
 #include <cmath>
 
 #include "analyses/diffusion/describe.hpp"
-#include "analyses/diffusion/report_free_paths.hpp"
 #include "carom/engines/engine.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/ensemble_reports.hpp"
-#include "cli/reports/starts_report.hpp"
 #include "files/describe/json_out.hpp"
 
 namespace carom::cli {
@@ -185,7 +183,7 @@ Json result_json(const System& system, const DiffusionResult& result,
   Json json = ensemble_json(system, result, context);
   files::JsonOut out(json);
   analyses::describe(out, result, system);
-  if (results::has_forces(system)) json.set("energy_change", result.energy_change);
+  if (system.has_forces()) json.set("energy_change", result.energy_change);
   add_steps(json, system, result.steps);
   add_reports(json, result.reports);
   json.set("starts", starts_json(system));

@@ -21,4 +21,10 @@ struct DiffusionSummary {
 };
 DiffusionSummary summary_of(const System&, const DiffusionResult&);
 
+/// Null where none were counted.
+files::Json free_paths_json(const System&, const DiffusionResult&);
+/// "" where none were counted.
+std::string free_paths_text(const System&, const DiffusionResult&, const Horizon&,
+                            const EnsembleContext&);
+
 }  // namespace carom::cli

@@ -1,4 +1,3 @@
-#include "analyses/diffusion/report_free_paths.hpp"
 
 #include <fmt/format.h>
 

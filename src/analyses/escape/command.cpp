@@ -3,22 +3,10 @@
 
 #include "carom/base/error.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/commands/ensemble_job.hpp"
+#include "cli/commands/run_ensemble.hpp"
 #include "cli/common.hpp"
 
 namespace carom::cli {
-
-namespace {
-
-void refuse_parts_of_others(const Options& options) {
-  if (is_plain_ensemble(options)) return;
-  const char* const only = "a plain ensemble, without --splitting";
-  if (!options.resume.empty())
-    throw InputError(place_of("--resume"), "this cannot be continued", only);
-  if (!options.shard.empty()) throw InputError(place_of("--shard"), "this cannot be divided", only);
-}
-
-}  // namespace
 
 void check_escape_options(const Options& options) {
   const auto refuse = [](const std::string& given, const char* option, const char* other) {
@@ -31,6 +19,11 @@ void check_escape_options(const Options& options) {
                        "one of the two");
   };
   if (!options.splitting.empty()) {
+    const char* const only = "a plain ensemble, without --splitting";
+    if (!options.resume.empty())
+      throw InputError(place_of("--resume"), "this cannot be continued", only);
+    if (!options.shard.empty())
+      throw InputError(place_of("--shard"), "this cannot be divided", only);
     refuse_beside(options.block, "--block", "--splitting");
     refuse_beside(options.checkpoint, "--checkpoint", "--splitting");
     refuse_beside(options.overrides.trajectories, "--trajectories",
@@ -39,8 +32,8 @@ void check_escape_options(const Options& options) {
                   "--splitting, which takes the widest lanes");
     if (options.splitting.starts_with("hits:"))
       refuse_beside(options.overrides.times, "--times", "levels of hits");
+    return;
   }
-  if (!options.splitting.empty()) return;
   refuse(options.population, "--population", "--splitting");
   refuse(options.repetitions, "--repetitions", "--splitting");
   refuse(options.kick, "--kick", "--splitting");
@@ -48,9 +41,8 @@ void check_escape_options(const Options& options) {
 }
 
 int escape(const Options& options) {
-  refuse_parts_of_others(options);
   check_escape_options(options);
-  return options.splitting.empty() ? ensemble(options) : splitting(options);
+  return options.splitting.empty() ? run_ensemble<EscapeResult>(options) : splitting(options);
 }
 
 }  // namespace carom::cli

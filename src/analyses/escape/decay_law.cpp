@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "base/chi_squared.hpp"
+#include "base/student.hpp"
 #include "carom/base/elementary.hpp"
 
 namespace carom::analyses {

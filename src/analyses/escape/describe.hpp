@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "carom/analyses/escape.hpp"
@@ -12,8 +11,7 @@
 
 namespace carom::analyses {
 
-template <class V, class Counts>
-void describe_gone(V& v, Counts& c) {
+void describe_gone(auto& v, auto& c) {
   v.group("survival", "Fraction of the non-singular trajectories still inside");
   v.rows([&] { return survival(c); });
   v.kept_column({"gone", "1", "Trajectories that left after the previous time and by t"}, c.gone_in,
@@ -77,7 +75,7 @@ void describe(V& v, Result& result, const System& system) {
          c.fewest_hits_of_survivor);
   v.number_if(system.of_discs(), {"contacts", "1", "Contacts of hard discs, each pair once"},
               c.contacts);
-  v.number_if(results::has_forces(system),
+  v.number_if(system.has_forces(),
               {"energy_change", "energy", "The largest change of a particle's energy"},
               c.energy_change);
   results::describe_integration(v, result, system);

@@ -8,44 +8,26 @@
 
 #include "carom/analyses/escape.hpp"
 #include "carom/engines/engine.hpp"
-#include "carom/table/hole_names.hpp"
 #include "engines/energy_watch.hpp"
 #include "engines/ensemble_listener.hpp"
-#include "engines/ordered_output.hpp"
 #include "engines/record_of.hpp"
 
 namespace carom::analyses {
 
-/// One thread's. Lanes go from block to block without a pause, so several are under way at once;
-/// where records are wanted in order, one block after the other: a thread that waits for its turn
-/// must not keep others waiting.
+/// One thread's. Lanes go from block to block without a pause, so several are under way at once.
 class EscapeListener : public engines::EnsembleListener<EscapeResult> {
  public:
-  using Output = engines::OrderedOutput<TrajectoryRecord>;
-
-  EscapeListener(const System& system, const Engine& engine, Thread& thread, Output& output)
+  /// `none`: the counts of no trajectory.
+  EscapeListener(const System& system, const Engine& engine, Thread& thread,
+                 const SurvivalCounts& none)
       : EnsembleListener(system, engine, thread),
-        writer_(output),
-        wants_records_(writer_.is_wanted() || thread.wants_records()),
         record_of_(system),
-        none_(system.run.times, hole_names(*system.table).size(), system.quasi_random()),
+        none_(none),
         watch_(system, [this] { return thread_.stopped(); }) {}
 
-  /// The next block, as DrawnStarts asks for it.
-  bool claim(TrajectoryRange& block) {
-    if (pause_ || thread_.stopped()) return false;
-    std::uint64_t number = 0;
-    if (exhausted_ = !thread_.claim(block, number); exhausted_) return false;
-    writer_.await_turn(number);
-    pause_ = writer_.is_wanted();
-    blocks_.push_back({block, number, block.last - block.first, {}, {}});
+  void claimed(TrajectoryRange block) override {
+    blocks_.push_back({block, block.last - block.first, {}, {}});
     blocks_.back().part.counts = none_;
-    return true;
-  }
-  /// After a pause; false if there are no blocks left.
-  bool go_on() {
-    pause_ = false;
-    return !exhausted_ && !thread_.stopped();
   }
 
   void begin(const Trajectory& t) override {
@@ -73,7 +55,8 @@ class EscapeListener : public engines::EnsembleListener<EscapeResult> {
       add_end(sum, index, particle.fate, particle.report,
               hash_(index, particle.fate, particle.time, particle.hits, particle.last_wall,
                     particle.state));
-      if (wants_records_) block.records.push_back(record_of_(index, t.starts[p], particle));
+      if (thread_.wants_records())
+        block.records.push_back(record_of_(index, t.starts[p], particle));
       hits += particle.hits;
     }
     thread_.report(1, hits);
@@ -85,14 +68,13 @@ class EscapeListener : public engines::EnsembleListener<EscapeResult> {
  private:
   struct Block {
     TrajectoryRange range;
-    std::uint64_t number = 0, left = 0;  ///< trajectories that have not ended
+    std::uint64_t left = 0;  ///< trajectories that have not ended
     EscapeResult part;
     std::vector<TrajectoryRecord> records;
   };
   void deliver(Block& block) {
     std::sort(block.records.begin(), block.records.end(),
               [](const auto& a, const auto& b) { return a.index < b.index; });
-    if (writer_.is_wanted() && !writer_.deliver(block.number, block.records)) return;
     const LaneEffort effort = engine_.effort();
     block.part.effort = effort - std::exchange(effort_, effort);
     add_done(block.part, block.range);
@@ -100,15 +82,12 @@ class EscapeListener : public engines::EnsembleListener<EscapeResult> {
         block.range, [&](EscapeResult& sum) { sum.add(block.part); }, std::move(block.records));
   }
 
-  Output::Writer writer_;
-  const bool wants_records_;
   const engines::RecordMaker record_of_;
-  const SurvivalCounts none_;  ///< of no trajectory yet
+  const SurvivalCounts& none_;
   std::list<Block> blocks_;
   std::vector<std::list<Block>::iterator> under_way_;  ///< by slot of a trajectory
   const engines::EnergyWatch watch_;                   ///< of a trajectory that has not begun
   std::vector<engines::EnergyWatch> energies_;         ///< by slot, if they are watched
-  bool pause_ = false, exhausted_ = false;
   LaneEffort effort_;
 };
 

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
-#include "carom/base/elementary.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 #include "files/progress.hpp"

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <vector>
 
 #include "analyses/checks.hpp"
 #include "carom/starts/start_measure.hpp"

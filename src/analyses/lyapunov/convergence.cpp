@@ -1,7 +1,5 @@
 #include "carom/analyses/lyapunov/convergence.hpp"
 
-#include <cmath>
-
 #include "carom/analyses/lyapunov/growth.hpp"
 #include "carom/base/error.hpp"
 #include "results/numbers.hpp"

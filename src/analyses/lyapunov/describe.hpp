@@ -13,9 +13,8 @@
 namespace carom::analyses {
 
 // A quantity that populations measured.
-template <class V, class Quantity>
-void describe_extrapolated(V& v, const std::string& key, const char* unit, const char* text,
-                           Quantity& e) {
+void describe_extrapolated(auto& v, const std::string& key, const char* unit, const char* text,
+                           auto& e) {
   const auto number = [&](const std::string& name, auto& value, const char* what) {
     v.kept({name.c_str(), unit, what}, value);
   };
@@ -55,8 +54,7 @@ void describe_repeller(V& v, Repeller& repeller) {
 }
 
 // What the sums say: nothing of it is read.
-template <class V>
-void describe_estimates(V& v, const LyapunovResult& result, const System& system) {
+void describe_estimates(auto& v, const LyapunovResult& result, const System& system) {
   const LyapunovEstimate e = estimate_of(system, result);
   const auto number = [&](const char* name, const char* unit, const char* text, double value) {
     v.computed({name, unit, text}, [&] { return value; });
@@ -100,8 +98,7 @@ void describe_convergence(V& v, Sums& sums, const LyapunovResult& result) {
       });
 }
 
-template <class V, class Sums>
-void describe_drift(V& v, const char* name, Sums& sums) {
+void describe_drift(auto& v, const char* name, auto& sums) {
   const std::string orbits = std::string(name) + "_orbits";
   if (!v.kept_if(sums.orbits > 0, {orbits.c_str(), "1", "Orbits of these sums"}, sums.orbits))
     return;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/student.hpp"
@@ -228,9 +227,8 @@ Numbers operator-(const Numbers& a, const Numbers& b) {
 }
 
 // Of quasi-random starts: errors by what a number is without one replicate after the other.
-template <class Number>
 double replicate_error(const std::vector<GrowthSums::Totals>& parts, const Numbers& all,
-                       Number number) {
+                       auto number) {
   if (std::any_of(parts.begin(), parts.end(),
                   [](const GrowthSums::Totals& t) { return t.orbits == 0; }))
     return nan;

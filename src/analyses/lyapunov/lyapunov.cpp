@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "analyses/lyapunov/lyapunov_listener.hpp"
 #include "base/counted.hpp"
-#include "carom/base/error.hpp"
 #include "carom/base/stopwatch.hpp"
 #include "carom/engines/trajectories.hpp"
 #include "carom/geometry/curve_frame.hpp"
@@ -15,14 +13,12 @@
 #include "carom/starts/sampler.hpp"
 #include "carom/starts/start_measure.hpp"
 #include "engines/followed_deviations.hpp"
-#include "results/describe_ends.hpp"
 
 namespace carom {
 
 using namespace analyses;
 using engines::refuse_no_deviations;
 using engines::unit_length_of;
-using results::is_integrated;
 
 namespace {
 
@@ -39,7 +35,7 @@ std::vector<double> times_of_convergence(const System& system, const GrowthSums&
   std::vector<double> times;
   for (std::size_t look = 0; look < GrowthSums::looks; ++look)
     times.push_back(plan.look_time(look));
-  if (plan.blocks() == 1 || is_integrated(system)) return times;
+  if (plan.blocks() == 1 || system.is_integrated()) return times;
   const double unit = unit_length_of(*system.table) / system.particles.front().speed;
   for (std::size_t look = GrowthSums::looks; look-- > 1;)
     times.push_back(half_octave * times[look]);

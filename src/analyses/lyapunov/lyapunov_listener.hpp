@@ -1,10 +1,8 @@
 // Carries deviations along trajectories, and adds up how they grow.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "carom/analyses/lyapunov.hpp"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include "analyses/splitting/means.hpp"
 #include "base/counted.hpp"
@@ -112,9 +111,8 @@ bool RepellerExponent::drifts() const {
 }
 
 bool is_open(const System& system) {
-  const Dynamics& d = system.dynamics;
-  if (d.everywhere || (d.forces && !d.forces->empty()) || system.of_discs() ||
-      system.particles.size() != 1 || !system.injections.empty() || system.run.collisions > 0)
+  if (system.is_integrated() || system.of_discs() || system.particles.size() != 1 ||
+      !system.injections.empty() || system.run.collisions > 0)
     return false;
   const Table& table = *system.table;
   return table.extent == Extent::open_plane ||

@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "analyses/lyapunov/describe.hpp"
-#include "analyses/lyapunov/report_spectrum.hpp"
-#include "analyses/lyapunov/report_starts.hpp"
+#include "analyses/lyapunov/report_parts.hpp"
 #include "carom/engines/engine.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"

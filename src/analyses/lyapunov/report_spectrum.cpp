@@ -1,4 +1,4 @@
-#include "analyses/lyapunov/report_spectrum.hpp"
+#include "analyses/lyapunov/report_parts.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "analyses/lyapunov/report_starts.hpp"
+#include "analyses/lyapunov/report_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,6 @@
 #include "carom/starts/start_measure.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
-#include "cli/reports/starts_report.hpp"
 
 namespace carom::cli {
 

@@ -1,12 +1,11 @@
-#include "carom/analyses/orbits/archive.hpp"
+#include "carom/analyses/orbits.hpp"
 
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "carom/base/error.hpp"
 #include "files/checkpoint/ensemble_columns.hpp"
-#include "files/checkpoint/ensemble_files.hpp"
+#include "files/checkpoint/work_folder.hpp"
 #include "files/hdf5/archive_file.hpp"
 #include "files/hdf5/checksums.hpp"
 #include "files/hdf5/fields.hpp"
@@ -101,7 +100,7 @@ ProofsOfOrbits read_proofs(hid_t file, const std::string& name) {
   };
   const Handle group = open_group(file, "proofs", name),
                hits = open_group(file, "proof_hits", name);
-  proofs.digits = static_cast<int>(hdf5::read_integer_attribute(group.get(), "digits", name));
+  proofs.digits = static_cast<int>(hdf5::read_attribute<std::int64_t>(group.get(), "digits", name));
   for (const std::int32_t one : hdf5::read_column<std::int32_t>(group.get(), "proven", name)) {
     proofs.orbits.emplace_back();
     proofs.orbits.back().proven = one != 0;
@@ -233,16 +232,16 @@ StoredOrbits read_orbits(const std::string& name) {
     }
   }
   each_field<Fields<OrbitSearchResult>>([&](const auto& one) {
-    one.set(stored.result,
-            static_cast<std::uint64_t>(hdf5::read_integer_attribute(from, one.label.name, name)));
+    one.set(stored.result, static_cast<std::uint64_t>(
+                               hdf5::read_attribute<std::int64_t>(from, one.label.name, name)));
   });
   stored.most_hits =
-      static_cast<std::uint64_t>(hdf5::read_integer_attribute(from, "most_hits", name));
+      static_cast<std::uint64_t>(hdf5::read_attribute<std::int64_t>(from, "most_hits", name));
   // The expansion is made of the orbits again: the same bits.
-  if (hdf5::read_integer_attribute(from, "zeta", name) != 0)
+  if (hdf5::read_attribute<std::int64_t>(from, "zeta", name) != 0)
     stored.result.cycles = expand_cycles(orbits, stored.most_hits);
   stored.proofs = read_proofs(file.get(), name);
-  stored.result.complete = hdf5::read_integer_attribute(file.get(), "complete", name) != 0;
+  stored.result.complete = hdf5::read_attribute<std::int64_t>(file.get(), "complete", name) != 0;
   stored.status = stored.result.complete ? "completed" : "interrupted";
   stored.system_toml = hdf5::read_text(file.get(), "system", name);
   const Handle provenance = opened("provenance");
@@ -251,7 +250,7 @@ StoredOrbits read_orbits(const std::string& name) {
   stored.result.seconds = seconds.wall;
   stored.result.cpu_seconds = seconds.cpu;
   stored.result.threads =
-      static_cast<int>(hdf5::read_integer_attribute(provenance.get(), "threads", name));
+      static_cast<int>(hdf5::read_attribute<std::int64_t>(provenance.get(), "threads", name));
   return stored;
 }
 

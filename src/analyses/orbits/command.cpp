@@ -1,11 +1,10 @@
 // carom orbit: the periodic orbits of a free particle.
-#include "analyses/orbits/command.hpp"
 
 #include <optional>
 #include <utility>
 
 #include "analyses/orbits/report.hpp"
-#include "carom/analyses/orbits/archive.hpp"
+#include "carom/analyses/orbits.hpp"
 #include "carom/base/error.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"

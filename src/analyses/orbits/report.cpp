@@ -10,7 +10,7 @@
 
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
-#include "cli/reports/grounds.hpp"
+#include "cli/reports/doubts.hpp"
 
 namespace carom::cli {
 

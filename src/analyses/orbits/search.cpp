@@ -16,10 +16,8 @@
 #include "carom/starts/injection.hpp"
 #include "engines/parallel_blocks.hpp"
 #include "orbits/across.hpp"
-#include "orbits/confirm.hpp"
-#include "orbits/describe.hpp"
 #include "orbits/itinerary.hpp"
-#include "orbits/shortest.hpp"
+#include "orbits/newton.hpp"
 #include "orbits/symmetry.hpp"
 
 namespace carom {

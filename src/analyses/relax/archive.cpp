@@ -1,12 +1,11 @@
-#include "carom/analyses/relax/archive.hpp"
+#include "carom/analyses/relax.hpp"
 
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "carom/base/error.hpp"
 #include "files/checkpoint/ensemble_columns.hpp"
-#include "files/checkpoint/ensemble_files.hpp"
+#include "files/checkpoint/work_folder.hpp"
 #include "files/hdf5/archive_file.hpp"
 #include "files/hdf5/checksums.hpp"
 #include "files/hdf5/fields.hpp"
@@ -92,9 +91,9 @@ StoredEquilibria read_equilibria(const std::string& name) {
   const Handle provenance = open_group(file.get(), "provenance", name);
   stored.system_name = hdf5::read_string_attribute(provenance.get(), "system", name);
   RelaxResult& result = stored.result;
-  result.complete = hdf5::read_integer_attribute(file.get(), "complete", name) != 0;
+  result.complete = hdf5::read_attribute<std::int64_t>(file.get(), "complete", name) != 0;
   result.threads =
-      static_cast<int>(hdf5::read_integer_attribute(provenance.get(), "threads", name));
+      static_cast<int>(hdf5::read_attribute<std::int64_t>(provenance.get(), "threads", name));
   const Seconds seconds = ArchiveFile::read_seconds(provenance.get(), name);
   result.seconds = seconds.wall;
   result.cpu_seconds = seconds.cpu;

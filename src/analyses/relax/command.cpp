@@ -1,11 +1,9 @@
 // carom relax: equilibria of the potential energy, and small oscillations about them.
 #include "carom/analyses/relax.hpp"
 
-#include <memory>
 #include <optional>
 
 #include "analyses/relax/report.hpp"
-#include "carom/analyses/relax/archive.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
 #include "files/progress.hpp"

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "analyses/relax/gsl_pointer.hpp"
 #include "carom/base/error.hpp"
 
 namespace carom::analyses {

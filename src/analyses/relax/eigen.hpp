@@ -1,6 +1,7 @@
 // Eigenvalues of what a Landscape gives, by GSL.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "analyses/relax/landscape.hpp"
@@ -17,5 +18,12 @@ Eigen eigen_of(const Matrix&);
 
 /// Small oscillations about a place without slopes.
 std::vector<NormalMode> normal_modes(const Landscape&, const Sites&, const Shape&);
+
+template <class T, void (*release)(T*)>
+struct GslRelease {
+  void operator()(T* p) const { release(p); }
+};
+template <class T, void (*release)(T*)>
+using GslPointer = std::unique_ptr<T, GslRelease<T, release>>;
 
 }  // namespace carom::analyses

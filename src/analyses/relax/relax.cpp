@@ -171,7 +171,7 @@ void refuse(const System& system) {
     throw InputError(Place{{}, 0, 0, "interaction.kind"},
                      "hard discs have no potential energy that could be minimised",
                      "a [[potential]], or an [interaction] with a potential");
-  if (!system.dynamics.forces || system.dynamics.forces->empty())
+  if (!system.has_forces())
     throw InputError(Place{{}, 0, 0, "potential"}, "nothing acts on the particles: all rest",
                      "a [[potential]] or an [interaction]");
 }

@@ -8,10 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "carom/analyses/relax/archive.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
-#include "cli/reports/grounds.hpp"
+#include "cli/reports/doubts.hpp"
 
 namespace carom::cli {
 

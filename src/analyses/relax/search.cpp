@@ -11,8 +11,6 @@
 #include <vector>
 
 #include "analyses/relax/eigen.hpp"
-#include "analyses/relax/gsl_pointer.hpp"
-#include "analyses/relax/walls.hpp"
 
 namespace carom::analyses {
 

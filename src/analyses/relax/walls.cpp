@@ -1,7 +1,6 @@
-#include "analyses/relax/walls.hpp"
+#include "analyses/relax/search.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace carom::analyses {

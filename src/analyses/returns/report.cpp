@@ -11,8 +11,8 @@
 #include "carom/starts/start_measure.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
+#include "cli/reports/ensemble_context.hpp"
 #include "cli/reports/ensemble_reports.hpp"
-#include "cli/reports/starts_report.hpp"
 #include "files/describe/json_out.hpp"
 
 namespace carom::cli {

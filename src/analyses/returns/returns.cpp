@@ -199,9 +199,8 @@ Returns returns_of(const ReturnSums& sums, double half) {
 
 std::optional<ExpectedReturns> expected_returns(const System& as_written) {
   const System system = with_starts_of_the_flow(as_written);
-  const Dynamics& d = system.dynamics;
   const double speed = system.particles.front().speed;
-  if (!why_not_stationary(system).empty() || d.everywhere || (d.forces && !d.forces->empty()) ||
+  if (!why_not_stationary(system).empty() || system.is_integrated() ||
       std::any_of(system.particles.begin(), system.particles.end(),
                   [&](const Particle& particle) { return particle.speed != speed; }))
     return std::nullopt;

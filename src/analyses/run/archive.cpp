@@ -1,4 +1,3 @@
-#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <utility>
@@ -7,15 +6,13 @@
 #include "carom/analyses/run/archive.hpp"
 #include "carom/analyses/run/rows.hpp"
 #include "carom/base/error.hpp"
-#include "carom/geometry/curve_frame.hpp"
 #include "carom/starts/injection.hpp"
 #include "carom/starts/sampler.hpp"
 #include "files/checkpoint/ensemble_columns.hpp"
-#include "files/checkpoint/ensemble_files.hpp"
+#include "files/checkpoint/work_folder.hpp"
 #include "files/hdf5/archive_file.hpp"
 #include "files/hdf5/checksums.hpp"
 #include "files/hdf5/fields.hpp"
-#include "results/describe_ends.hpp"
 
 namespace carom {
 
@@ -52,8 +49,7 @@ class RunArchive::Implementation {
         system(loaded.system),
         energies_now(system) {}
 
-  void create(const LoadedSystem& loaded, const Provenance& origin,
-              std::optional<std::uint64_t> trajectory);
+  void create(const LoadedSystem& loaded, const Provenance& origin, std::uint64_t trajectory);
   void reopen(const LoadedSystem& loaded, const Provenance& origin);
   void write_steps(const StepCounts& steps, const Evaluations& evaluations);
 
@@ -75,12 +71,11 @@ class RunArchive::Implementation {
 };
 
 void RunArchive::Implementation::create(const LoadedSystem& loaded, const Provenance& origin,
-                                        std::optional<std::uint64_t> trajectory) {
+                                        std::uint64_t trajectory) {
   file.write_head(run_archive_kind, loaded, origin);
   file.write_seconds({});
-  if (trajectory)
-    hdf5::write_attribute(file.open_group("provenance").get(), trajectory_key, *trajectory,
-                          file.name());
+  hdf5::write_attribute(file.open_group("provenance").get(), trajectory_key, trajectory,
+                        file.name());
   std::vector<std::string> walls;
   for (const Wall& wall : table->walls) walls.push_back(wall.name);
   {
@@ -104,13 +99,13 @@ void RunArchive::Implementation::create(const LoadedSystem& loaded, const Proven
     const Handle group = file.group("energy", "Sums over the particles at each sample's time");
     energies.create(group.get());
   }
-  if (results::is_integrated(loaded.system)) {
+  if (loaded.system.is_integrated()) {
     const Handle group = file.group("steps", "What integration has cost");
     create_columns<StepCounts>(group.get(), 1, file.name());
     create_columns<Evaluations>(group.get(), 1, file.name());
   }
   const std::size_t particles =
-      loaded.system.particles.size() + injected_count(loaded.system, trajectory.value_or(0));
+      loaded.system.particles.size() + injected_count(loaded.system, trajectory);
   {
     const Handle group = file.group(
         "state",
@@ -125,10 +120,6 @@ void RunArchive::Implementation::create(const LoadedSystem& loaded, const Proven
 }
 
 void RunArchive::Implementation::reopen(const LoadedSystem& loaded, const Provenance& origin) {
-  if (hdf5::has(file.open_group("collisions").get(), "u"))
-    throw InputError(Place{file.name(), 0, 0, ""},
-                     "was begun by an earlier build, whose hits have a column 'u'",
-                     "an archive of this one: run it again");
   file.extend_head(loaded, origin);
   const Handle provenance = file.open_group("provenance");
   file.write_seconds(ArchiveFile::read_seconds(provenance.get(), file.name()));
@@ -155,8 +146,7 @@ RunArchive::~RunArchive() = default;
 
 std::unique_ptr<RunArchive> RunArchive::create(const std::string& file, const LoadedSystem& loaded,
                                                const Provenance& origin, bool force,
-                                               std::optional<std::uint64_t> trajectory,
-                                               ArchiveLock lock) {
+                                               std::uint64_t trajectory, ArchiveLock lock) {
   hdf5::silence();
   if (!lock) lock = lock_archive(file);
   refuse_existing(file, force);

@@ -6,7 +6,7 @@
 
 #include "carom/base/error.hpp"
 #include "files/checkpoint/ensemble_columns.hpp"
-#include "files/checkpoint/ensemble_files.hpp"
+#include "files/checkpoint/work_folder.hpp"
 #include "files/hdf5/archive_file.hpp"
 #include "files/hdf5/checksums.hpp"
 #include "files/hdf5/columns.hpp"
@@ -233,14 +233,13 @@ void read_guarantee(hid_t file, const std::string& name, StoredCertified& stored
   const Handle group = open_group(file, "guarantee", name);
   const hid_t from = group.get();
   const auto integer = [&](const char* key) {
-    return hdf5::read_integer_attribute(from, key, name);
+    return hdf5::read_attribute<std::int64_t>(from, key, name);
   };
   stored.task.digits = static_cast<int>(integer("digits"));
   stored.effort.bits = integer("bits");
   stored.effort.attempts = static_cast<int>(integer("attempts"));
-  stored.effort.tangent_bits = hdf5::read_real_attribute(from, "lost_bits", name);
-  // Archives of earlier builds do not say it.
-  stored.effort.rescaled = H5Aexists(from, "rescaled") > 0 && integer("rescaled") != 0;
+  stored.effort.tangent_bits = hdf5::read_attribute<double>(from, "lost_bits", name);
+  stored.effort.rescaled = integer("rescaled") != 0;
   stored.end.reason = hdf5::read_string_attribute(from, "reason", name);
   stored.end.ties = hdf5::read_string_list_attribute(from, "ties", name);
 }

@@ -109,9 +109,9 @@ void refuse_another_run(const Options& options, const LoadedSystem& loaded,
   if (!differs.empty()) refuse(differs);
   if (const std::string engine = engine_of(loaded.system); engine != stored.engine)
     refuse(fmt::format("--engine is {}, not {}", engine, stored.engine));
-  if (!options.trajectory.empty() && stored.trajectory &&
-      whole_number(options.trajectory, "--trajectory", 0) != *stored.trajectory)
-    refuse(fmt::format("--trajectory is {}, not {}", options.trajectory, *stored.trajectory));
+  if (!options.trajectory.empty() &&
+      whole_number(options.trajectory, "--trajectory", 0) != stored.trajectory)
+    refuse(fmt::format("--trajectory is {}, not {}", options.trajectory, stored.trajectory));
 }
 
 // The archive stays as it is, and the result is printed again; that nothing was added must be said.

@@ -11,7 +11,6 @@
 #include "carom/analyses/run/certified_archive.hpp"
 #include "carom/base/error.hpp"
 #include "carom/base/stopwatch.hpp"
-#include "carom/certify/certified_orbit.hpp"
 #include "carom/events/world.hpp"
 #include "carom/starts/sampler.hpp"
 #include "files/progress.hpp"
@@ -156,7 +155,7 @@ void check_form(const System& system, const char* option) {
     throw InputError(Place{"command line", 0, 0, option}, std::string(what) + " no exact form",
                      expected);
   };
-  if (system.dynamics.forces && !system.dynamics.forces->empty())
+  if (system.has_forces())
     refuse("[[potential]] and [interaction] have", "a system without forces, or double precision");
   if (system.of_discs()) refuse("hard discs have", "point particles, or double precision");
   if (system.particles.size() > 1)

@@ -86,7 +86,7 @@ std::string end_text(const System& system, const RunEnd& particle, bool interrup
   text +=
       fmt::format("\n  velocity      {}, {}\n  energy error  {:.2g} at the end, {:.2g} at most\n",
                   particle.vx, particle.vy, error.end, error.largest);
-  if (!system.dynamics.forces || system.dynamics.forces->empty())
+  if (!system.has_forces())
     text += fmt::format("  trusted       {}\n", trust_text(system, particle));
   return text;
 }
@@ -95,7 +95,7 @@ std::string end_text(const System& system, const RunEnd& particle, bool interrup
 std::string particles_text(const System& system, const SingleRunResult& result, bool verbose) {
   constexpr std::size_t most = 20;
   const std::size_t all = result.particles.size(), rows = verbose ? all : std::min(all, most);
-  const bool forces = system.dynamics.forces && !system.dynamics.forces->empty();
+  const bool forces = system.has_forces();
   const bool trusted = !forces && result.particles.front().trust.known;
   std::vector<Column> columns;
   for (int digits = 6; digits >= 3; --digits) {

@@ -63,13 +63,6 @@ class OpenedFile {
   State at_first_;
 };
 
-// Of an archive of an earlier build, which has no starts: trajectory 0 is drawn again.
-std::vector<SampleRow> drawn_starts(const System& system) {
-  World world(*system.table, system.dynamics);
-  add_starts(world, Sampler(system), 0);
-  return start_rows(world, *system.table);
-}
-
 // Sees whether a run that has ended goes on all the same.
 struct Ended : Observer {
   bool goes_on = false;
@@ -103,10 +96,8 @@ OutcomePointer open_run(const std::string& file) {
                      "an archive as carom wrote it");
   outcome->result.seconds = stored.seconds;
   outcome->result.cpu_seconds = stored.cpu_seconds;
-  if (system.dynamics.forces && !system.dynamics.forces->empty())
-    outcome->result.no_state_error = "archives do not store it";
+  if (system.has_forces()) outcome->result.no_state_error = "archives do not store it";
   outcome->starts = read_starts(file);
-  if (outcome->starts.empty()) outcome->starts = drawn_starts(system);
   outcome->status = stored.status;
   outcome->trajectory = stored.trajectory;
   outcome->hits = opened.rows(read_hits);

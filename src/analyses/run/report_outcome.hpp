@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,7 +40,7 @@ struct RunOutcome final : Outcome {
 
   SingleRunResult result;
   std::string status;
-  std::optional<std::uint64_t> trajectory = 0;  ///< none: of an archive of an earlier build
+  std::uint64_t trajectory = 0;
   Rows<HitRow> hits;
   Rows<SampleRow> samples;
   Rows<ContactRow> contacts;

@@ -1,7 +1,5 @@
 #include "carom/analyses/run/rows.hpp"
 
-#include <utility>
-
 #include "base/interrupt.hpp"
 #include "carom/events/energy.hpp"
 #include "carom/events/world.hpp"
@@ -97,10 +95,7 @@ ContactRow contact_row(const ContactEvent& e, const Table& table) {
           e.transfer};
 }
 
-bool EnergyRows::wanted() const {
-  const Dynamics& dynamics = system_.dynamics;
-  return system_.of_discs() || (dynamics.forces && !dynamics.forces->empty());
-}
+bool EnergyRows::wanted() const { return system_.of_discs() || system_.has_forces(); }
 
 void EnergyRows::sample(int particle, const State& state) {
   if (!wanted()) return;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <stdexcept>
 
 #include "base/interrupt.hpp"
 #include "carom/base/error.hpp"
@@ -151,8 +149,7 @@ class SingleRun {
       : system_(system),
         options_(options),
         world_(*system.table, system.dynamics, options.decisions),
-        integrated_(system.dynamics.everywhere ||
-                    (system.dynamics.forces && !system.dynamics.forces->empty())),
+        integrated_(system.is_integrated()),
         // Energy is shared by particles that interact, by forces or by contacts.
         shared_(integrated_ ? system.dynamics.forces && system.dynamics.forces->interacts()
                             : system.of_discs()),
@@ -178,7 +175,7 @@ class SingleRun {
   }
 
  private:
-  std::uint64_t trajectory() const { return options_.trajectory.value_or(0); }
+  std::uint64_t trajectory() const { return options_.trajectory; }
   /// The number in the system of a particle of the world.
   std::size_t number(std::size_t body) const { return static_cast<std::size_t>(numbers_[body]); }
   State state(std::size_t body) const { return world_.state(static_cast<int>(body)); }
@@ -238,13 +235,13 @@ class SingleRun {
     else if (!is_thermal(*system_.table))  // which keep no energy
       passed_on_->watch(&*free_);
   }
-  /// Where the stored run began; none where that is not known, or not needed.
+  /// Where the stored run began; none where that is not needed.
   std::vector<State> starts_of_all() {
     std::vector<State> starts;
-    if (!goes_on_ || !options_.trajectory || !(integrated_ || shared_)) return starts;
+    if (!goes_on_ || !(integrated_ || shared_)) return starts;
     World drawn(*system_.table, system_.dynamics, options_.decisions);
     try {
-      add_starts(drawn, sampler_, *options_.trajectory);
+      add_starts(drawn, sampler_, options_.trajectory);
     } catch (const SamplingStopped&) {  // the run ends where it began, and is as before
       was_interrupted_ = true;
       return starts;
@@ -253,8 +250,7 @@ class SingleRun {
     return starts;
   }
   /// Of each particle of the world, or of all together.
-  template <class StateOf>
-  std::vector<Energy> energies_of(const StateOf& state_of) {
+  std::vector<Energy> energies_of(const auto& state_of) {
     const Dynamics& dynamics = system_.dynamics;
     const std::size_t count = numbers_.size();
     std::vector<State> states;
@@ -388,9 +384,7 @@ class SingleRun {
     count_steps(result);
     result.seconds = options_.seconds + watch_.seconds();
     result.cpu_seconds = options_.cpu_seconds + watch_.cpu_seconds();
-    if (options_.estimate_state_error && system_.dynamics.forces &&
-        !system_.dynamics.forces->empty())
-      estimate_state_error(result, last);
+    if (options_.estimate_state_error && system_.has_forces()) estimate_state_error(result, last);
     return result;
   }
 
@@ -402,15 +396,10 @@ class SingleRun {
     };
     double end = 0.0;
     for (const ParticleProgress& p : progress_) end = std::max(end, p.end.value());
-    if (!options_.trajectory) {
-      result.no_state_error =
-          "an earlier build began the archive, and did not store which start was drawn";
-      return;
-    }
     try {
       if (!interrupted_())
         result.state_error =
-            state_error(system_, *options_.trajectory, end, options_.interrupted, last);
+            state_error(system_, options_.trajectory, end, options_.interrupted, last);
     } catch (const SamplingStopped&) {  // the run itself has its result
     }
     if (!result.state_error)
@@ -455,9 +444,8 @@ EnergyError energy_error_of(const SingleRunResult& result) {
 }
 
 bool estimates_trust(const System& system) {
-  return !system.dynamics.everywhere && !system.of_discs() && !scatters(*system.table) &&
-         system.table->regions.empty() && table::bezier_wall(*system.table) == nullptr &&
-         (!system.dynamics.forces || system.dynamics.forces->empty());
+  return !system.is_integrated() && !system.of_discs() && !scatters(*system.table) &&
+         system.table->regions.empty() && table::bezier_wall(*system.table) == nullptr;
 }
 
 SingleRunResult run_single(const System& system, Observer& observer,

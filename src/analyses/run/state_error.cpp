@@ -56,9 +56,7 @@ State state_of(const World& world, int particle, double t) {
 std::optional<StateError> state_error(const System& system, std::uint64_t trajectory, double t_end,
                                       const std::function<bool()>& stopped,
                                       const std::vector<State>& reached) {
-  if (!system.dynamics.forces || system.dynamics.forces->empty() || !(t_end > 0.0) ||
-      !std::isfinite(t_end))
-    return {};
+  if (!system.has_forces() || !(t_end > 0.0) || !std::isfinite(t_end)) return {};
   const Table& table = *system.table;
   Dynamics fine = system.dynamics;
   fine.integrator = finer(fine.integrator);

@@ -4,12 +4,9 @@
 #include <cmath>
 
 #include "analyses/run/trust_columns.hpp"
-#include "carom/analyses/run/archive.hpp"
 #include "carom/base/error.hpp"
-#include "carom/files/ensembles.hpp"
 #include "carom/geometry/curve.hpp"
 #include "carom/starts/injection.hpp"
-#include "files/checkpoint/ensemble_files.hpp"
 #include "files/hdf5/archive_file.hpp"
 #include "files/hdf5/checksums.hpp"
 #include "files/hdf5/fields.hpp"
@@ -26,7 +23,7 @@ void analyses::check_stored(const StoredRun& run, const System& system, const st
   };
   const std::size_t particles =
       system.particles.size() +
-      (system.injections.empty() ? 0 : injected_count(system, run.trajectory.value_or(0)));
+      (system.injections.empty() ? 0 : injected_count(system, run.trajectory));
   if (run.particles.size() != particles)
     refuse("has " + std::to_string(run.particles.size()) + " particles, the system has " +
            std::to_string(particles));
@@ -71,8 +68,7 @@ StoredRun read_run(const std::string& name) {
   const Seconds seconds = ArchiveFile::read_seconds(provenance.get(), name);
   run.seconds = seconds.wall;
   run.cpu_seconds = seconds.cpu;
-  if (H5Aexists(provenance.get(), trajectory_key) > 0)
-    run.trajectory = hdf5::read_count_attribute(provenance.get(), trajectory_key, name);
+  run.trajectory = hdf5::read_attribute<std::uint64_t>(provenance.get(), trajectory_key, name);
 
   const Handle state(H5Gopen2(file.get(), "state", H5P_DEFAULT), H5Gclose);
   run.particles = read_all_rows<ParticleProgress>(state.get(), name);

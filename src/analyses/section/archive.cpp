@@ -1,13 +1,11 @@
-#include <span>
 #include <utility>
 
-#include "carom/analyses/section/archive.hpp"
+#include "carom/analyses/section.hpp"
 #include "files/checkpoint/ensemble_columns.hpp"
-#include "files/checkpoint/ensemble_files.hpp"
+#include "files/checkpoint/work_folder.hpp"
 #include "files/hdf5/archive_file.hpp"
 #include "files/hdf5/fields.hpp"
 #include "files/hdf5/stored_rows.hpp"
-#include "results/describe_ends.hpp"
 
 namespace carom {
 
@@ -20,7 +18,7 @@ class SectionArchive::Implementation {
       : target(path),
         file(ArchiveFile::create(aside_of(path), path)),
         rows(path),
-        integrated(results::is_integrated(loaded.system)) {
+        integrated(loaded.system.is_integrated()) {
     file.write_head(section_archive_kind, loaded, origin);
     const System& system = loaded.system;
     const Handle group =
@@ -79,7 +77,7 @@ StoredSection read_section(const std::string& name) {
   SectionResult& result = stored.result;
   read_numbers(fates.get(), result, name);
   read_integration(fates.get(), name, result.steps, result.energy_error);
-  result.complete = hdf5::read_integer_attribute(file.get(), "complete", name) != 0;
+  result.complete = hdf5::read_attribute<std::int64_t>(file.get(), "complete", name) != 0;
   stored.system_toml = hdf5::read_text(file.get(), "system", name);
   const std::size_t particles =
       read_system(stored.system_toml, name + ": /system").system.particles.size();
@@ -91,7 +89,7 @@ StoredSection read_section(const std::string& name) {
   result.seconds = seconds.wall;
   result.cpu_seconds = seconds.cpu;
   result.threads =
-      static_cast<int>(hdf5::read_integer_attribute(provenance.get(), "threads", name));
+      static_cast<int>(hdf5::read_attribute<std::int64_t>(provenance.get(), "threads", name));
   return stored;
 }
 

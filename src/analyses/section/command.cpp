@@ -7,7 +7,6 @@
 
 #include "analyses/section/report.hpp"
 #include "carom/analyses/section.hpp"
-#include "carom/analyses/section/archive.hpp"
 #include "carom/events/world.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/own_step.hpp"

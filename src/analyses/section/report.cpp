@@ -3,16 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 
-#include "carom/analyses/section/archive.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
-#include "cli/reports/grounds.hpp"
 #include "files/describe/json_out.hpp"
-#include "results/describe_ends.hpp"
 
 namespace carom::cli {
 
@@ -60,7 +56,7 @@ Json section_json(const System& system, const SectionResult& result, const std::
   files::add_numbers(json, result);
   files::add_numbers<FateCounts>(json, result);
   json.set("decisions", decisions_json(result.decisions));
-  if (results::is_integrated(system)) files::add_numbers(json, result.energy_error);
+  if (system.is_integrated()) files::add_numbers(json, result.energy_error);
   add_steps(json, system, result.steps);
   add_reports(json, result.reports);
   if (!output.empty()) json.set("archive", output);

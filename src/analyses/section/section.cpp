@@ -1,8 +1,6 @@
 #include "carom/analyses/section.hpp"
 
 #include <algorithm>
-#include <memory>
-#include <utility>
 
 #include "carom/base/digest.hpp"
 #include "carom/base/error.hpp"

@@ -6,18 +6,14 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <vector>
 
-#include "analyses/splitting/report_fit.hpp"
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
 #include "carom/events/report.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/ensemble_job.hpp"
 #include "cli/common.hpp"
-#include "cli/number_list.hpp"
 #include "cli/reports/aligned.hpp"
-#include "cli/reports/grounds.hpp"
 #include "files/progress.hpp"
 
 namespace carom::cli {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "carom/analyses/splitting.hpp"
+#include "carom/analyses/splitting/fit.hpp"
 #include "cli/options.hpp"
 #include "cli/outcome.hpp"
 #include "cli/reports/doubts.hpp"
@@ -32,5 +33,9 @@ struct SplittingOutcome final : Outcome {
 
   SplittingResult result;
 };
+
+/// `variable`: "t", or "n" of hits.
+files::Json split_fit_json(const SplitFit&);
+std::string split_fit_text(const SplitFit&, const char* variable);
 
 }  // namespace carom::cli

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "analyses/splitting/means.hpp"
 #include "base/student.hpp"

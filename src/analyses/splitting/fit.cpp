@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "analyses/splitting/means.hpp"
 #include "base/student.hpp"
@@ -113,10 +112,6 @@ std::string why_not(const SplittingResult& result, Span span, std::size_t known,
 }
 
 }  // namespace
-
-Extrapolated decay_rate(const SplittingResult& result, std::size_t first, std::size_t last) {
-  return rate_of(result, Logarithms(result), DecayLaw::exponential, {first, last});
-}
 
 SplitFit fit_decay(const SplittingResult& result, std::optional<DecayWindow> window) {
   SplitFit made;

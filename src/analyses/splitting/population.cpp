@@ -4,7 +4,6 @@
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <stdexcept>
 
 #include "carom/base/digest.hpp"
 #include "carom/base/elementary.hpp"

@@ -1,4 +1,4 @@
-#include "analyses/splitting/report_fit.hpp"
+#include "analyses/splitting/command.hpp"
 
 #include <fmt/format.h>
 

@@ -26,8 +26,7 @@ void check(const System& system, const SplittingPlan& plan) {
   refuse_all_but_mirrors(*system.table, "populations");
   refuse_injections(system, "splitting");
   refuse_quasi_random(system, "splitting");
-  const bool forces = system.dynamics.forces && !system.dynamics.forces->empty();
-  if (forces || system.dynamics.everywhere || system.particles.size() != 1 || system.of_discs())
+  if (system.is_integrated() || system.particles.size() != 1 || system.of_discs())
     refuse("splitting", "splitting follows one free particle",
            "a system without forces, of one particle, flown by events");
   if (system.run.collisions > 0)

@@ -22,8 +22,7 @@ using Products = fast::Splitting;
 constexpr std::size_t block = 64;
 
 /// By the quick way; what that leaves open, one by one.
-template <class Quick, class One>
-CAROM_INLINE void each(double* x, std::size_t n, Quick quick, One one) {
+CAROM_INLINE void each(double* x, std::size_t n, auto quick, auto one) {
   alignas(64) double before[block], spreads[block];
   for (std::size_t from = 0; from < n; from += block) {
     const std::size_t count = n - from < block ? n - from : block;

@@ -1,7 +1,5 @@
 #include "certify/enclosure/line_enclosure.hpp"
 
-#include <algorithm>
-
 namespace carom::certify {
 namespace {
 

@@ -1,7 +1,5 @@
 #include "certify/flight/larmor_quartic.hpp"
 
-#include <optional>
-
 namespace carom::certify {
 
 Interval narrowed(const Powers<Interval>& f, const LarmorExit<Interval>& exit) {

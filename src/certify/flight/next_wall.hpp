@@ -15,10 +15,7 @@ enum class Verdict : unsigned char { no, yes, undecided };
 /// The sign of a quantity whose zero is a tie: into a joint, touching, at an end. Enclosures report
 /// a proven zero as undecided, so that the tie is looked for in rational numbers. Numbers taken at
 /// their word keep it: they give the joint to one of its walls.
-template <class N>
-Sign sign_or_tie(const N& x) {
-  return sign(x);
-}
+Sign sign_or_tie(const auto& x) { return sign(x); }
 inline Sign sign_or_tie(const Ball& x) {
   const Sign s = sign(x);
   return s == Sign::zero ? Sign::undecided : s;

@@ -78,8 +78,7 @@ Whereabouts whereabouts_of(const BallTable&, const Ball& omega = Ball(0));
 
 /// Calls try_copy(copy) for every copy of a wall that comes near a piece of a flight with that
 /// middle; `off`: how far the piece may be from there.
-template <class Try>
-void near_piece(const Whereabouts& w, geometry::Vector q, double off, Try try_copy) {
+void near_piece(const Whereabouts& w, geometry::Vector q, double off, auto try_copy) {
   for (std::size_t i = 0; i < w.discs.size(); ++i) {
     const geometry::Vector d = q - w.discs[i].centre;
     const double reach = 0.5 * w.stretch + w.discs[i].radius + off;

@@ -1,8 +1,5 @@
 #include "certify/number/ball.hpp"
 
-#include <algorithm>
-#include <memory>
-
 namespace carom::certify {
 
 std::string Ball::decimals(long digits) const {

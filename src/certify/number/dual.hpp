@@ -46,8 +46,7 @@ struct Dual {
     return each(a.value / b, [&](std::size_t i) { return a.slope[i] / b; });
   }
 
-  template <class Function>
-  static Dual each(const Number& value, Function slope_of) {
+  static Dual each(const Number& value, auto slope_of) {
     Dual r;
     r.value = value;
     for (std::size_t i = 0; i < directions; ++i) r.slope[i] = slope_of(i);

@@ -1,8 +1,6 @@
 // Numbers as they were written, at any precision.
 #pragma once
 
-#include <string>
-
 #include "carom/base/exact_number.hpp"
 #include "certify/number/ball.hpp"
 

@@ -1,7 +1,5 @@
 #include "certify/wall/containment.hpp"
 
-#include <variant>
-
 #include "carom/geometry/region.hpp"
 
 namespace carom::certify {

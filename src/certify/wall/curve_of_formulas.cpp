@@ -5,8 +5,6 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "base/formula_words.hpp"
 #include "certify/number/exact_value.hpp"

@@ -1,6 +1,5 @@
 #include "certify/wall/system_check.hpp"
 
-#include <optional>
 #include <variant>
 
 #include "certify/number/exact_value.hpp"

@@ -2,7 +2,6 @@
 // file.
 #pragma once
 
-#include <string>
 #include <variant>
 
 #include "carom/base/error.hpp"

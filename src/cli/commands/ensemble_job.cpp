@@ -2,13 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
-#include "carom/files/ensembles.hpp"
 #include "carom/starts/sampler.hpp"
 #include "cli/common.hpp"
 #include "files/checkpoint/rank_parts.hpp"

@@ -11,7 +11,6 @@
 #include "cli/commands/commands.hpp"
 #include "cli/commands/run_ensemble.hpp"
 #include "cli/commands/sweep.hpp"
-#include "cli/commands/sweep_plan.hpp"
 #include "cli/common.hpp"
 #include "files/checkpoint/sweep_archive.hpp"
 #include "files/checkpoint/work_folder.hpp"

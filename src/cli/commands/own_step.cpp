@@ -4,7 +4,7 @@
 
 #include "carom/files/system_file.hpp"
 #include "cli/reports/doubts.hpp"
-#include "files/toml/halved_step.hpp"
+#include "files/toml/overrides.hpp"
 
 namespace carom::cli {
 

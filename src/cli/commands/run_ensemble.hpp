@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,8 +63,7 @@ inline EnsembleContext context_of(const Options& options, std::string status, st
 }
 
 /// Prints a result; the exit status. `complete`: it was not interrupted.
-template <class Result>
-int report(const Options& options, const System& system, const Result& result,
+int report(const Options& options, const System& system, const auto& result,
            const EnsembleContext& context, bool complete, const OwnStep* own_step = nullptr) {
   const Doubts doubts = doubts_of(system, result);
   warn_of(result.reports, doubts.failed);
@@ -134,8 +132,7 @@ Result fly(const Options& options, const System& system, EnsembleOptions<Result>
 }
 
 // What a whole ensemble says beyond the sum of its parts: of exponents alone.
-template <class Result>
-void complete_sum(const Options&, const System&, Result&) {}
+void complete_sum(const Options&, const System&, auto&) {}
 inline void complete_sum(const Options& options, const System& system, LyapunovResult& result) {
   SplittingOptions how;
   how.threads = threads_of(options);
@@ -145,8 +142,7 @@ inline void complete_sum(const Options& options, const System& system, LyapunovR
 }
 
 // Refuses a system of which nothing could be measured. A value of a sweep has none then.
-template <class Result>
-void refuse_nothing(const Options&, const System&, const Result&) {}
+void refuse_nothing(const Options&, const System&, const auto&) {}
 inline void refuse_nothing(const Options& options, const System& system,
                            const LyapunovResult& result) {
   if (options.of_sweep) return;
@@ -203,6 +199,16 @@ int run_alone(const Options& options) {
   archive.reset();  // whatever becomes of the report
   job.lock.reset();
   return report_and_say_how_to_go_on(options, job, result, status_of(result.complete), own_step);
+}
+
+/// On several ranks (run_shared.cpp).
+template <class Result>
+int run_shared(const Options&, Ranks&);
+
+template <class Result>
+int run_ensemble(const Options& options) {
+  if (Ranks* const ranks = start_ranks()) return run_shared<Result>(options, *ranks);
+  return run_alone<Result>(options);
 }
 
 }  // namespace carom::cli

@@ -5,19 +5,15 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <string>
 #include <utility>
 
 #include "carom/base/error.hpp"
 #include "cli/commands/ensemble_job.hpp"
-#include "cli/commands/run_shared.hpp"
-#include "cli/commands/sweep_plan.hpp"
+#include "cli/commands/run_ensemble.hpp"
 #include "cli/common.hpp"
 #include "cli/outcome.hpp"
 #include "cli/ranks.hpp"
-#include "cli/reports/sweep_report.hpp"
 #include "files/checkpoint/rank_parts.hpp"
-#include "files/checkpoint/sweep_archive.hpp"
 #include "files/checkpoint/work_folder.hpp"
 
 namespace carom::cli {

@@ -1,10 +1,12 @@
-// --sweep: a command for each of many values of a key, or for each point of a plane of two.
+// --sweep: a command for each of many values of a key, or for each point of a plane of two. What it
+// asks for is read and checked before anything is computed (sweep_plan.cpp).
 #pragma once
 
 #include <string>
 
 #include "cli/options.hpp"
 #include "cli/reports/sweep_report.hpp"
+#include "files/checkpoint/sweep_archive.hpp"
 
 namespace carom::cli {
 
@@ -26,5 +28,15 @@ void keep_sweep(const Options&, const SweepResult&, const std::string& file,
 /// The same where there is a file; prints the result.
 void end_sweep(const Options&, SweepResult&, const std::string& file,
                const std::vector<Origin>& before);
+
+/// The plan of the options. Reads the system of every value: throws InputError for one that is bad
+/// input, and for a key that means nothing to the command.
+files::SweepPlan plan_of_sweep(const Options&);
+/// Throws InputError, with `file` as its place, where two plans differ, and says in what. Windows
+/// may differ.
+void refuse_another(const files::SweepPlan& stored, const files::SweepPlan& asked,
+                    const std::string& file);
+/// Options that are no part of a system, as the plan keeps them.
+void restore_options(const files::SweepPlan&, Options&);
 
 }  // namespace carom::cli

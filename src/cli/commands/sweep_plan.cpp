@@ -1,4 +1,4 @@
-#include "cli/commands/sweep_plan.hpp"
+#include "cli/commands/sweep.hpp"
 
 #include <fmt/format.h>
 

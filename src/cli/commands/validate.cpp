@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string>
 
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
@@ -13,7 +12,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
-#include "cli/reports/grounds.hpp"
+#include "cli/reports/doubts.hpp"
 #include "files/progress.hpp"
 
 namespace carom::cli {

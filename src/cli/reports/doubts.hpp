@@ -1,5 +1,5 @@
-// Why a result cannot be trusted, which a report says before all else; and what integration has
-// cost.
+// Why a result cannot be trusted, which a report says before all else; what integration has cost;
+// and last what was checked and what was not.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,8 @@
 
 #include "carom/analyses/run.hpp"
 #include "carom/analyses/section.hpp"
+#include "carom/events/step_counts.hpp"
+#include "carom/system/system.hpp"
 #include "files/json.hpp"
 
 namespace carom::cli {
@@ -65,5 +67,10 @@ std::string pace_text(const System&, const EventCounts&, const StepCounts&, doub
 /// "largest change of a trajectory's energy …: 1e-12 at the end …\n"; "" where nothing is
 /// integrated.
 std::string energy_text(const System&, const EnergyError&);
+
+/// "checked: …; not: …", in lines that fit.
+std::string grounds_text(const std::string& checked, const std::string& unchecked);
+/// Of an ensemble; `errors`: it has standard errors or intervals, whose coverage was tried.
+std::string grounds_text(const System&, const StepCounts&, bool errors);
 
 }  // namespace carom::cli

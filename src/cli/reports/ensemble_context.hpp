@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 
 #include "carom/files/archive.hpp"
@@ -42,5 +41,12 @@ files::Json estimate_json(const Estimate&);
 std::string with_error(const Estimate&);
 /// The keys with which the report of every ensemble begins.
 files::Json ensemble_json(const System&, const EnsembleResult&, const EnsembleContext&);
+
+/// Whether they are stationary for the flow, and why not.
+files::Json starts_json(const System&);
+/// What is drawn in place of starts of the map (starts_of_the_map).
+std::string drawn_in_place(const System&);
+/// Why correlations are not those of the flow, as a phrase; "" where they are.
+std::string correlation_note(const System&);
 
 }  // namespace carom::cli

@@ -1,6 +1,5 @@
 #include "cli/reports/ensemble_outcome.hpp"
 
-#include <memory>
 #include <utility>
 
 #include "cli/common.hpp"

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string>
 #include <vector>
 
-#include "carom/integrators/scheme_list.hpp"
+#include "carom/integrators/scheme.hpp"
+#include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 
@@ -56,6 +56,11 @@ Json schemes_json() {
   Json json = Json::object();
   add_common_keys(json, System{}, 1, 0.0, 0.0);
   return json.set("schemes", std::move(list));
+}
+
+int schemes(const Options& options) {
+  print_report(options, schemes_json, schemes_text);
+  return done;
 }
 
 }  // namespace carom::cli

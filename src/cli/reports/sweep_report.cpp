@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "base/printable.hpp"
 #include "carom/base/exact_number.hpp"
 #include "carom_version.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
-#include "cli/reports/grounds.hpp"
+#include "cli/reports/doubts.hpp"
 
 namespace carom::cli {
 

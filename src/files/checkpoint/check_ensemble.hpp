@@ -20,8 +20,7 @@ void check_rows(const StoredEnsemble&, std::uint64_t particles);
 /// The times of the dataset `where` are the report times of the system.
 void check_times(const StoredEnsemble&, const std::vector<double>& times, const char* where,
                  const System&);
-template <class Numbers>
-std::uint64_t sum_of(const Numbers& numbers) {
+std::uint64_t sum_of(const auto& numbers) {
   return std::accumulate(numbers.begin(), numbers.end(), std::uint64_t{0});
 }
 

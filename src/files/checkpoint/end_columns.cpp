@@ -1,6 +1,4 @@
 // How the particles of an ensemble ended, as numbers of the group /fates.
-#include <algorithm>
-
 #include "files/checkpoint/ensemble_columns.hpp"
 
 namespace carom::files {
@@ -10,11 +8,6 @@ using hdf5::Handle;
 FateCounts read_fates(const Handle& group, const std::string& name, std::uint64_t all) {
   FateCounts counts;
   read_numbers(group.get(), counts, name);
-  // Earlier builds called unresolved particles lost, and left survivors out of sections.
-  if (!hdf5::has(group.get(), "survived"))
-    counts.survived = all - std::min(all, counts.all());
-  else if (counts.capped > 0 && counts.all() + counts.capped == all)
-    counts.survived += counts.capped;  // which earlier builds did not count among them
   if (counts.all() != all) damaged(name, "'/fates' do not add up to '/fates/trajectories'");
   if (counts.unbounded > counts.escaped)
     damaged(name, "'/fates/unbounded' is more than '/fates/escaped'");

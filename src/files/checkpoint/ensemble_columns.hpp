@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "carom/analyses/kinds.hpp"
@@ -18,15 +17,12 @@ void write_done(const ArchiveFile&, const EnsembleResult&);
 void read_done(hid_t file, const std::string& name, EnsembleResult&);
 
 /// What describe() says of it.
-template <class Result>
-void write_counts(const ArchiveFile&, const Result&, const System&);
-template <class Result>
-void read_counts(hid_t file, const std::string& name, Result&);
+void write_counts(const ArchiveFile&, const auto&, const System&);
+void read_counts(hid_t file, const std::string& name, auto&);
 
 /// The fates of /fates add up to `all` particles: InputError where they do not.
 FateCounts read_fates(const hdf5::Handle& fates, const std::string& name, std::uint64_t all);
-/// What integration has cost, and how well energies were kept; archives of earlier builds have none
-/// of it.
+/// What integration has cost, and how well energies were kept; nothing where none was.
 void write_integration(hid_t fates, const StepCounts&, const EnergyError&, const std::string& name);
 void read_integration(hid_t fates, const std::string& name, StepCounts&, EnergyError&);
 

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "carom/base/error.hpp"
-#include "carom/files/ensembles.hpp"
 #include "files/checkpoint/ensemble_columns.hpp"
 #include "files/checkpoint/ensemble_files.hpp"
 

@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <utility>
@@ -59,7 +57,7 @@ Stored<Result> read_one(const std::string& name) {
   stored.system_toml = hdf5::read_text(file.get(), "system", name);
   stored.system_name = attribute("system");
   stored.engine = attribute("engine");
-  stored.everywhere = hdf5::read_integer_attribute(from, "everywhere", name) == 1;
+  stored.everywhere = hdf5::read_attribute<std::int64_t>(from, "everywhere", name) == 1;
   if (H5Aexists(from, arithmetic_key) > 0) stored.arithmetic = attribute(arithmetic_key);
   stored.shard = shard_of(attribute("shard"), Place{name, 0, 0, ""});
   stored.origins = ArchiveFile::read_origins(from, name);
@@ -68,13 +66,13 @@ Stored<Result> read_one(const std::string& name) {
   stored.per_trajectory = hdf5::has(file.get(), "trajectories") || hdf5::has(file.get(), "records");
   read_counts(file.get(), name, result);
   read_done(file.get(), name, result);
-  result.complete = hdf5::read_integer_attribute(file.get(), "complete", name) == 1;
-  result.threads = static_cast<int>(hdf5::read_integer_attribute(from, "threads", name));
+  result.complete = hdf5::read_attribute<std::int64_t>(file.get(), "complete", name) == 1;
+  result.threads = static_cast<int>(hdf5::read_attribute<std::int64_t>(from, "threads", name));
   const Seconds seconds = ArchiveFile::read_seconds(from, name);
   result.seconds = seconds.wall;
   result.cpu_seconds = seconds.cpu;
   const auto count = [&](const char* what) {
-    return static_cast<std::uint64_t>(hdf5::read_integer_attribute(from, what, name));
+    return static_cast<std::uint64_t>(hdf5::read_attribute<std::int64_t>(from, what, name));
   };
   result.decisions = {count("decisions_filter"), count("decisions_exact")};
   const std::string isa = attribute("isa");
@@ -215,7 +213,7 @@ CAROM_FOR_ENSEMBLES(CAROM_MAKE)
 bool is_complete(const std::string& file) {
   hdf5::silence();
   try {
-    return hdf5::read_integer_attribute(open_ensemble(file).get(), "complete", file) == 1;
+    return hdf5::read_attribute<std::int64_t>(open_ensemble(file).get(), "complete", file) == 1;
   } catch (const InputError&) {
     return false;
   }

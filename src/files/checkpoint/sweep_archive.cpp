@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <span>
 #include <string_view>
@@ -238,7 +237,7 @@ StoredSweep read_sweep(const std::string& file) {
   StoredSweep stored;
   stored.plan = read_plan(from, name);
   stored.status = hdf5::read_string_attribute(from, "status", name);
-  stored.complete = hdf5::read_integer_attribute(from, "complete", name) == 1;
+  stored.complete = hdf5::read_attribute<std::int64_t>(from, "complete", name) == 1;
   stored.origins = ArchiveFile::read_origins(open_group(from, "provenance", name).get(), name);
   for (std::size_t i = 0; i < stored.plan.systems.size(); ++i)
     if (hdf5::has(open_group(from, group_of(i).c_str(), name).get(), "provenance"))

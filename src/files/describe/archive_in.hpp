@@ -44,24 +44,14 @@ class ArchiveIn {
   void number(const Label& label, T& value) {
     value = read_number<T>(id(), dataset_name(label), name_);
   }
-  template <class T>
-  bool kept_if(bool, const Label& label, T& value) {
+  bool kept_if(bool, const Label& label, auto& value) {
     const bool there = hdf5::has(id(), dataset_name(label).c_str());
     if (there) number(label, value);
     return there;
   }
-  template <class T>
-  void number_if(bool, const Label& label, T& value) {
-    kept_if(true, label, value);
-  }
-  template <class T>
-  void kept(const Label& label, T& value) {
-    number(label, value);
-  }
-  template <class Struct>
-  void kept_numbers(Struct& s) {
-    read_numbers(id(), s, name_);
-  }
+  void number_if(bool, const Label& label, auto& value) { kept_if(true, label, value); }
+  void kept(const Label& label, auto& value) { number(label, value); }
+  void kept_numbers(auto& s) { read_numbers(id(), s, name_); }
   template <class Struct>
   void numbers_if(bool, Struct& s) {
     const Label& first = std::get<0>(Fields<Struct>::list).label;
@@ -78,8 +68,7 @@ class ArchiveIn {
     kept_all(label, values);
     if (values.size() != count) lost(label);
   }
-  template <class Get>
-  void kept_each(const Label& label, std::size_t count, Get get) {
+  void kept_each(const Label& label, std::size_t count, auto get) {
     std::vector<std::decay_t<decltype(get(0))>> values;
     kept_column(label, values, count);
     for (std::size_t i = 0; i < count; ++i) get(i) = values[i];
@@ -92,8 +81,7 @@ class ArchiveIn {
       damaged(name_, "'/" + path_ + "/" + label.name + "' is too long");
     std::copy(first.begin(), first.end(), values.begin());
   }
-  template <class Names>
-  void named_column(const Label& label, std::vector<std::uint64_t>& values, Names) {
+  void named_column(const Label& label, std::vector<std::uint64_t>& values, auto) {
     if (hdf5::has(id(), label.name)) kept_all(label, values);
   }
   template <class Bins>
@@ -108,23 +96,19 @@ class ArchiveIn {
       bins.add(starts[i], counts[i]);
     }
   }
-  template <class Get>
-  void sums(const Label& label, std::size_t count, Get get) {
+  void sums(const Label& label, std::size_t count, auto get) {
     std::vector<ExactSum> all = read_sums(group_, path_, label.name, count, name_);
     for (std::size_t i = 0; i < count; ++i) get(i) = std::move(all[i]);
   }
-  template <class Make>
-  void rows(Make) {}
-  template <class Make>
-  void kept_rows(Make) {}
-  template <class Make>
-  void computed(const Label&, Make) {}
+  void rows(auto) {}
+  void kept_rows(auto) {}
+  void computed(const Label&, auto) {}
   template <class Struct>
   void provenance(Struct& s) {
     const hdf5::Handle group = open_group(file_, "provenance", name_);
     each_field<Fields<Struct>>([&](const auto& one) {
       one.set(s, static_cast<std::uint64_t>(
-                     hdf5::read_integer_attribute(group.get(), one.label.name, name_)));
+                     hdf5::read_attribute<std::int64_t>(group.get(), one.label.name, name_)));
     });
   }
 

@@ -6,7 +6,6 @@
 #include <span>
 #include <string>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "carom/files/ensembles.hpp"
@@ -28,35 +27,22 @@ class ArchiveOut {
   }
   bool has_if(bool there, const char*) { return there; }
 
-  template <class T>
-  void number(const Label& label, const T& value) {
+  void number(const Label& label, const auto& value) {
     hdf5::write_number(id(), dataset_name(label).c_str(), value, description_of(label), name());
   }
-  template <class T>
-  void number_if(bool there, const Label& label, const T& value) {
+  void number_if(bool there, const Label& label, const auto& value) {
     if (there) number(label, value);
   }
-  template <class T>
-  void kept(const Label& label, const T& value) {
-    number(label, value);
-  }
-  template <class T>
-  bool kept_if(bool there, const Label& label, const T& value) {
+  void kept(const Label& label, const auto& value) { number(label, value); }
+  bool kept_if(bool there, const Label& label, const auto& value) {
     number_if(there, label, value);
     return there;
   }
-  template <class Struct>
-  void kept_numbers(const Struct& s) {
-    write_numbers(id(), s, name());
-  }
-  template <class Struct>
-  void numbers_if(bool there, const Struct& s) {
+  void kept_numbers(const auto& s) { write_numbers(id(), s, name()); }
+  void numbers_if(bool there, const auto& s) {
     if (there) kept_numbers(s);
   }
-  template <class Counts>
-  void fates(const Counts& counts, std::uint64_t) {
-    write_numbers<FateCounts>(id(), counts, name());
-  }
+  void fates(const auto& counts, std::uint64_t) { write_numbers<FateCounts>(id(), counts, name()); }
 
   template <class T>
   void kept_all(const Label& label, const std::vector<T>& values) {
@@ -67,8 +53,7 @@ class ArchiveOut {
   void kept_column(const Label& label, const std::vector<T>& values, std::size_t) {
     kept_all(label, values);
   }
-  template <class Get>
-  void kept_each(const Label& label, std::size_t count, Get get) {
+  void kept_each(const Label& label, std::size_t count, auto get) {
     std::vector<std::decay_t<decltype(get(0))>> values;
     for (std::size_t i = 0; i < count; ++i) values.push_back(get(i));
     kept_all(label, values);
@@ -78,36 +63,28 @@ class ArchiveOut {
   void first_rows(const Label& label, const std::vector<T>& values, Count count) {
     kept_each(label, count(), [&](std::size_t i) { return values[i]; });
   }
-  template <class Names>
-  void named_column(const Label& label, const std::vector<std::uint64_t>& values, Names names) {
+  void named_column(const Label& label, const std::vector<std::uint64_t>& values, auto names) {
     if (values.empty()) return;
     kept_all(label, values);
     const hdf5::Handle dataset = hdf5::open_column(id(), label.name, name());
     hdf5::write_attribute(dataset.get(), "names", names(), name());
   }
-  template <class Bins>
-  void bins(const Label& from, const Label& count, const Bins& bins) {
+  void bins(const Label& from, const Label& count, const auto& bins) {
     const auto all = bins.bins();
     kept_each(from, all.size(), [&](std::size_t i) { return all[i].from; });
     kept_each(count, all.size(), [&](std::size_t i) { return all[i].count; });
   }
-  template <class Get>
-  void sums(const Label& label, std::size_t count, Get get) {
+  void sums(const Label& label, std::size_t count, auto get) {
     std::vector<const ExactSum*> all;
     for (std::size_t i = 0; i < count; ++i) all.push_back(&get(i));
     write_sums(group_, label.name, all, description_of(label), name());
   }
-  template <class Make>
-  void rows(Make make) {
+  void rows(auto make) {
     const auto points = make();
     write_columns(id(), std::span(points), name());
   }
-  template <class Make>
-  void kept_rows(Make make) {
-    rows(make);
-  }
-  template <class Make>
-  void computed(const Label& label, Make make) {
+  void kept_rows(auto make) { rows(make); }
+  void computed(const Label& label, auto make) {
     if constexpr (std::is_arithmetic_v<decltype(make())>)
       number(label, make());
     else

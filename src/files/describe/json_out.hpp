@@ -57,12 +57,10 @@ class JsonOut {
   void group(const char* path, const char*) { group_ = path; }
   bool group_if(bool, const char*, const char*) { return false; }
   bool has_if(bool, const char*) { return false; }
-  template <class T>
-  void number(const Label& label, const T& value) {
+  void number(const Label& label, const auto& value) {
     json_.set(label.name, json_of(label, value));
   }
-  template <class T>
-  void number_if(bool there, const Label& label, const T& value) {
+  void number_if(bool there, const Label& label, const auto& value) {
     if (there) number(label, value);
   }
   template <class Struct>
@@ -71,12 +69,8 @@ class JsonOut {
     if constexpr (!std::is_same_v<Struct, StepCounts>)
       if (there) add_numbers(json_, s);
   }
-  template <class Counts>
-  void fates(const Counts& counts, std::uint64_t) {
-    add_numbers<FateCounts>(json_, counts);
-  }
-  template <class Make>
-  void rows(Make make) {
+  void fates(const auto& counts, std::uint64_t) { add_numbers<FateCounts>(json_, counts); }
+  void rows(auto make) {
     Json list = Json::array();
     for (const auto& point : make()) {
       Json row = Json::object();
@@ -86,34 +80,19 @@ class JsonOut {
     json_.set(group_, std::move(list));
   }
 
-  template <class T>
-  void kept(const Label&, const T&) {}
-  template <class T>
-  bool kept_if(bool, const Label&, const T&) {
-    return false;
-  }
-  template <class Struct>
-  void kept_numbers(const Struct&) {}
-  template <class T>
-  void kept_all(const Label&, const T&) {}
-  template <class T>
-  void kept_column(const Label&, const T&, std::size_t) {}
-  template <class Get>
-  void kept_each(const Label&, std::size_t, Get) {}
-  template <class T, class Count>
-  void first_rows(const Label&, const T&, Count) {}
-  template <class Names>
-  void named_column(const Label&, const std::vector<std::uint64_t>&, Names) {}
-  template <class Bins>
-  void bins(const Label&, const Label&, const Bins&) {}
-  template <class Get>
-  void sums(const Label&, std::size_t, Get) {}
-  template <class Make>
-  void kept_rows(Make) {}
-  template <class Make>
-  void computed(const Label&, Make) {}
-  template <class Struct>
-  void provenance(const Struct&) {}
+  void kept(const Label&, const auto&) {}
+  bool kept_if(bool, const Label&, const auto&) { return false; }
+  void kept_numbers(const auto&) {}
+  void kept_all(const Label&, const auto&) {}
+  void kept_column(const Label&, const auto&, std::size_t) {}
+  void kept_each(const Label&, std::size_t, auto) {}
+  void first_rows(const Label&, const auto&, auto) {}
+  void named_column(const Label&, const std::vector<std::uint64_t>&, auto) {}
+  void bins(const Label&, const Label&, const auto&) {}
+  void sums(const Label&, std::size_t, auto) {}
+  void kept_rows(auto) {}
+  void computed(const Label&, auto) {}
+  void provenance(const auto&) {}
 
  private:
   Json& json_;

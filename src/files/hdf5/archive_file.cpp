@@ -16,10 +16,9 @@
 #include "carom/base/error.hpp"
 #include "carom/files/ensembles.hpp"
 #include "carom_version.hpp"
-#include "files/checkpoint/ensemble_files.hpp"
 #include "files/checkpoint/rank_parts.hpp"
 #include "files/checkpoint/sweep_archive.hpp"
-#include "files/hdf5/checksums.hpp"
+#include "files/checkpoint/work_folder.hpp"
 #include "files/hdf5/stored_rows.hpp"
 #include "files/platform.hpp"
 
@@ -193,7 +192,8 @@ void ArchiveFile::extend_head(const LoadedSystem& loaded, const Provenance& orig
   hdf5::write_text(id(), "system", loaded.resolved_toml,
                    {"TOML", "The complete resolved system: carom runs it again"}, name_);
   const Handle provenance = open_group("provenance");
-  const std::int64_t times = 1 + hdf5::read_integer_attribute(provenance.get(), "continued", name_);
+  const std::int64_t times =
+      1 + hdf5::read_attribute<std::int64_t>(provenance.get(), "continued", name_);
   hdf5::change_attribute(provenance.get(), "continued", times, name_);
   write_origin(provenance.get(), static_cast<std::size_t>(times) + 1,
                {origin.command, version, utc_now()}, name_);
@@ -201,7 +201,7 @@ void ArchiveFile::extend_head(const LoadedSystem& loaded, const Provenance& orig
 
 std::vector<Origin> ArchiveFile::read_origins(hid_t provenance, const std::string& name) {
   std::vector<Origin> parts;
-  const std::int64_t continued = hdf5::read_integer_attribute(provenance, "continued", name);
+  const std::int64_t continued = hdf5::read_attribute<std::int64_t>(provenance, "continued", name);
   if (continued < 0)
     throw InputError(Place{name, 0, 0, ""}, "'/provenance/continued' is negative",
                      "an archive as carom wrote it");
@@ -239,16 +239,14 @@ void ArchiveFile::write_seconds(const Seconds& seconds) const {
 }
 
 Seconds ArchiveFile::read_seconds(hid_t provenance, const std::string& name) {
-  const auto read = [&](const char* key) {
-    return H5Aexists(provenance, key) > 0 ? hdf5::read_real_attribute(provenance, key, name) : 0.0;
-  };
-  return {read(seconds_key), read(cpu_seconds_key)};
+  return {hdf5::read_attribute<double>(provenance, seconds_key, name),
+          hdf5::read_attribute<double>(provenance, cpu_seconds_key, name)};
 }
 
 void ArchiveFile::add_decisions(const DecisionCounts& counts) const {
   const Handle provenance = open_group("provenance");
   const auto add = [&](const char* name, std::uint64_t number) {
-    const std::int64_t before = hdf5::read_integer_attribute(provenance.get(), name, name_);
+    const std::int64_t before = hdf5::read_attribute<std::int64_t>(provenance.get(), name, name_);
     hdf5::change_attribute(provenance.get(), name, before + static_cast<std::int64_t>(number),
                            name_);
   };
@@ -283,7 +281,7 @@ hdf5::Handle files::open_archive(const std::string& name, const std::string& pro
   if (file && end < name.size())
     file = Handle(H5Gopen2(file.get(), name.c_str() + end, H5P_DEFAULT), H5Gclose);
   if (!file) throw InputError(place, problem, expected);
-  if (hdf5::read_integer_attribute(file.get(), "schema", name) != archive_schema)
+  if (hdf5::read_attribute<std::int64_t>(file.get(), "schema", name) != archive_schema)
     throw InputError(place, "the archive has another schema",
                      "one written by this version of carom");
   return file;

@@ -41,7 +41,6 @@ class ArchiveFile {
   void set_status(const std::string& status, bool complete) const;
   /// How long the computing took, in /provenance: of all parts of a run.
   void write_seconds(const Seconds&) const;
-  /// 0 where archives of earlier builds do not say.
   static Seconds read_seconds(hid_t provenance, const std::string& name);
   /// Adds the counts of decisions to those of earlier parts of the run in /provenance.
   void add_decisions(const DecisionCounts&) const;

@@ -1,7 +1,6 @@
 #include "files/hdf5/columns.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <future>
 #include <thread>
 

@@ -71,8 +71,7 @@ class Columns {
   static bool is_usual(const Column&, std::span<const std::uint8_t> values);
   void write(Column& column);
   std::size_t batch() const { return chunk_ < short_batch ? short_batch : chunk_; }
-  template <class T>
-  void push(Column& column, T value) {
+  void push(Column& column, auto value) {
     std::memcpy(column.values.data() + pending_ * sizeof value, &value, sizeof value);
   }
 

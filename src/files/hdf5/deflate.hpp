@@ -1,7 +1,6 @@
 // A stream of zlib whose parts are either stored as they are or deflated by a library.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>

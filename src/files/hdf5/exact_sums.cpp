@@ -56,9 +56,9 @@ std::vector<ExactSum> read_sums(const Handle& group, const std::string& path, co
   const auto column = hdf5::read_column<std::int64_t>(group.get(), name, file);
   const Handle dataset = hdf5::open_column(group.get(), name, file);
   const auto first =
-      static_cast<std::uint64_t>(hdf5::read_integer_attribute(dataset.get(), "first", file));
+      static_cast<std::uint64_t>(hdf5::read_attribute<std::int64_t>(dataset.get(), "first", file));
   const auto each =
-      static_cast<std::uint64_t>(hdf5::read_integer_attribute(dataset.get(), "digits", file));
+      static_cast<std::uint64_t>(hdf5::read_attribute<std::int64_t>(dataset.get(), "digits", file));
   if (first > ExactSum::digits || each > ExactSum::digits - first || column.size() != each * count)
     damaged(file, fmt::format("'/{}/{}' has lost digits", path, name));
   std::vector<ExactSum> sums;

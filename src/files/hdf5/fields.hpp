@@ -49,7 +49,6 @@ template <class Struct, class List = Fields<Struct>>
 void read_numbers(hid_t group, Struct& s, const std::string& file) {
   each_field<List>([&](const auto& one) {
     const std::string name = dataset_name(one.label);
-    if (one.later && !hdf5::has(group, name.c_str())) return;
     one.set(s, read_number<typename std::decay_t<decltype(one)>::kept_type>(group, name, file));
   });
 }
@@ -98,7 +97,6 @@ void write_columns(hid_t group, std::span<const Row> rows, const std::string& fi
   });
 }
 
-/// Reads rows; fields of later versions that are missing keep their defaults.
 template <class Row, class List = Fields<Row>>
 class RowReader {
  public:
@@ -161,7 +159,6 @@ void overwrite_columns(hid_t group, std::span<const Row> rows, const std::string
   each_field<List>([&](const auto& one) {
     using T = typename std::decay_t<decltype(one)>::kept_type;
     const std::string name = dataset_name(one.label);
-    if (!hdf5::has(group, name.c_str())) return;  // an earlier version began the archive
     std::vector<T> values;
     for (const Row& row : rows) values.push_back(one.kept(row));
     hdf5::Handle dataset =

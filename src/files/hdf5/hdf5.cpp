@@ -8,7 +8,6 @@
 #include <cstring>
 #include <iterator>
 
-#include "carom/base/error.hpp"
 #include "files/hdf5/sums.hpp"
 #include "files/hdf5/texts.hpp"
 
@@ -46,7 +45,23 @@ Handle text_type(std::size_t size, const std::string& file) {
   return type;
 }
 
-// One value or a row of them.
+Handle create_dataset(hid_t parent, const char* name, hid_t type, const Handle& space, hid_t layout,
+                      Description description, const std::string& file) {
+  Handle dataset =
+      checked(H5Dcreate2(parent, name, type, space.get(), H5P_DEFAULT, layout, H5P_DEFAULT),
+              H5Dclose, file);
+  write_attribute(dataset.get(), "units", description.units, file);
+  write_attribute(dataset.get(), "description", description.text, file);
+  return dataset;
+}
+
+}  // namespace
+
+void cannot_read(const std::string& file, const char* what) {
+  throw InputError(Place{file, 0, 0, ""}, fmt::format("'{}' is missing or not readable", what),
+                   "an archive that carom wrote");
+}
+
 Handle create_attribute(hid_t object, const char* name, hid_t type, const hsize_t* size,
                         const std::string& file) {
   const Handle space =
@@ -54,18 +69,6 @@ Handle create_attribute(hid_t object, const char* name, hid_t type, const hsize_
   return checked(H5Acreate2(object, name, type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
                  file);
 }
-
-void describe(hid_t dataset, Description description, const std::string& file) {
-  write_attribute(dataset, "units", description.units, file);
-  write_attribute(dataset, "description", description.text, file);
-}
-
-[[noreturn]] void cannot_read(const std::string& file, const char* what) {
-  throw InputError(Place{file, 0, 0, ""}, fmt::format("'{}' is missing or not readable", what),
-                   "an archive that carom wrote");
-}
-
-}  // namespace
 
 void prepare() {
   H5dont_atexit();
@@ -108,21 +111,6 @@ void write_attribute(hid_t object, const char* name, std::string_view value,
   check(H5Awrite(attribute.get(), type.get(), &start) >= 0, file);
 }
 
-void write_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file) {
-  const Handle attribute = create_attribute(object, name, H5T_STD_I64LE, nullptr, file);
-  check(H5Awrite(attribute.get(), H5T_NATIVE_INT64, &value) >= 0, file);
-}
-
-void write_attribute(hid_t object, const char* name, std::uint64_t value, const std::string& file) {
-  const Handle attribute = create_attribute(object, name, H5T_STD_U64LE, nullptr, file);
-  check(H5Awrite(attribute.get(), H5T_NATIVE_UINT64, &value) >= 0, file);
-}
-
-void write_attribute(hid_t object, const char* name, double value, const std::string& file) {
-  const Handle attribute = create_attribute(object, name, H5T_IEEE_F64LE, nullptr, file);
-  check(H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, &value) >= 0, file);
-}
-
 void write_attribute(hid_t object, const char* name, const std::vector<std::string>& values,
                      const std::string& file) {
   const Handle type = text_type(H5T_VARIABLE, file);
@@ -154,16 +142,6 @@ void change_attribute(hid_t object, const char* name, std::string_view value,
   check(H5Awrite(attribute.get(), type.get(), text.data()) >= 0, file);
 }
 
-void change_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file) {
-  const Handle attribute = checked(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, file);
-  check(H5Awrite(attribute.get(), H5T_NATIVE_INT64, &value) >= 0, file);
-}
-
-void change_attribute(hid_t object, const char* name, double value, const std::string& file) {
-  const Handle attribute = checked(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, file);
-  check(H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, &value) >= 0, file);
-}
-
 std::vector<std::string> read_string_list_attribute(hid_t object, const char* name,
                                                     const std::string& file) {
   if (H5Aexists(object, name) <= 0) return {};
@@ -177,29 +155,6 @@ std::string read_string_attribute(hid_t object, const char* name, const std::str
   const std::vector<std::string> texts = read_string_list_attribute(object, name, file);
   if (texts.size() != 1) cannot_read(file, name);
   return texts.front();
-}
-
-std::int64_t read_integer_attribute(hid_t object, const char* name, const std::string& file) {
-  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
-  std::int64_t value = 0;
-  if (!attribute || H5Aread(attribute.get(), H5T_NATIVE_INT64, &value) < 0) cannot_read(file, name);
-  return value;
-}
-
-std::uint64_t read_count_attribute(hid_t object, const char* name, const std::string& file) {
-  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
-  std::uint64_t value = 0;
-  if (!attribute || H5Aread(attribute.get(), H5T_NATIVE_UINT64, &value) < 0)
-    cannot_read(file, name);
-  return value;
-}
-
-double read_real_attribute(hid_t object, const char* name, const std::string& file) {
-  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
-  double value = 0.0;
-  if (!attribute || H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &value) < 0)
-    cannot_read(file, name);
-  return value;
 }
 
 void write_text(hid_t parent, const char* name, std::string_view value, Description description,
@@ -217,10 +172,7 @@ void write_texts(hid_t parent, const char* name, const std::vector<std::string>&
   const Handle type = text_type(H5T_VARIABLE, file);
   const hsize_t size = texts.size();
   const Handle space = checked(H5Screate_simple(1, &size, nullptr), H5Sclose, file);
-  Handle dataset = checked(
-      H5Dcreate2(parent, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-      H5Dclose, file);
-  describe(dataset.get(), description, file);
+  Handle dataset = create_dataset(parent, name, type.get(), space, H5P_DEFAULT, description, file);
   std::vector<const char*> starts;
   for (const std::string& text : texts) starts.push_back(text.c_str());
   check(texts.empty() ||
@@ -247,11 +199,7 @@ Handle create_scalar(hid_t parent, const char* name, hid_t type, Description des
   const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, file);
   const Handle layout = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, file);
   check(H5Pset_alloc_time(layout.get(), H5D_ALLOC_TIME_EARLY) >= 0, file);
-  Handle dataset =
-      checked(H5Dcreate2(parent, name, type, space.get(), H5P_DEFAULT, layout.get(), H5P_DEFAULT),
-              H5Dclose, file);
-  describe(dataset.get(), description, file);
-  return dataset;
+  return create_dataset(parent, name, type, space, layout.get(), description, file);
 }
 
 Handle create_fixed(hid_t parent, const char* name, hid_t type, std::size_t rows,
@@ -264,11 +212,7 @@ Handle create_fixed(hid_t parent, const char* name, hid_t type, std::size_t rows
     const hsize_t chunk = std::min<hsize_t>(size, 65536);  // filters work on chunks
     check(H5Pset_chunk(layout.get(), 1, &chunk) >= 0 && H5Pset_fletcher32(layout.get()) >= 0, file);
   }
-  Handle dataset =
-      checked(H5Dcreate2(parent, name, type, space.get(), H5P_DEFAULT, layout.get(), H5P_DEFAULT),
-              H5Dclose, file);
-  describe(dataset.get(), description, file);
-  return dataset;
+  return create_dataset(parent, name, type, space, layout.get(), description, file);
 }
 
 Handle create_growing(hid_t parent, const char* name, hid_t type, std::size_t chunk,
@@ -282,11 +226,7 @@ Handle create_growing(hid_t parent, const char* name, hid_t type, std::size_t ch
     check(H5Pset_shuffle(layout.get()) >= 0 && H5Pset_deflate(layout.get(), 1) >= 0, file);
   check(H5Pset_fletcher32(layout.get()) >= 0, file);  // the last: it guards the others' input
   if (usual) check(H5Pset_fill_value(layout.get(), type, usual) >= 0, file);
-  Handle dataset =
-      checked(H5Dcreate2(parent, name, type, space.get(), H5P_DEFAULT, layout.get(), H5P_DEFAULT),
-              H5Dclose, file);
-  describe(dataset.get(), description, file);
-  return dataset;
+  return create_dataset(parent, name, type, space, layout.get(), description, file);
 }
 
 std::size_t rows_of(hid_t dataset, const std::string& file) {
@@ -373,24 +313,5 @@ void read_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, vo
       H5Dread(dataset, type, memory.get(), all.get(), H5P_DEFAULT, values) < 0)
     cannot_read(file, "rows");
 }
-
-template <class T>
-std::vector<T> read_column(hid_t parent, const char* name, const std::string& file) {
-  const Handle dataset = open_column(parent, name, file);
-  std::vector<T> values(rows_of(dataset.get(), file));
-  if (!values.empty() &&
-      H5Dread(dataset.get(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    cannot_read(file, name);
-  return values;
-}
-template std::vector<double> read_column<double>(hid_t, const char*, const std::string&);
-template std::vector<std::int32_t> read_column<std::int32_t>(hid_t, const char*,
-                                                             const std::string&);
-template std::vector<std::int64_t> read_column<std::int64_t>(hid_t, const char*,
-                                                             const std::string&);
-template std::vector<std::uint8_t> read_column<std::uint8_t>(hid_t, const char*,
-                                                             const std::string&);
-template std::vector<std::uint64_t> read_column<std::uint64_t>(hid_t, const char*,
-                                                               const std::string&);
 
 }  // namespace carom::files::hdf5

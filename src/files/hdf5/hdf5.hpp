@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -58,18 +59,21 @@ void check(bool ok, const std::string& file);
 /// The same for identifiers.
 Handle checked(hid_t id, Handle::Closer closer, const std::string& file);
 
+/// Throws InputError: what is to be read is missing or not readable.
+[[noreturn]] void cannot_read(const std::string& file, const char* what);
+
 /// What a dataset is: unit "1" for pure numbers.
 struct Description {
   const char* units;
   const char* text;
 };
 
+/// One value, or `size` values.
+Handle create_attribute(hid_t object, const char* name, hid_t type, const hsize_t* size,
+                        const std::string& file);
 /// Texts are UTF-8 of variable length.
 void write_attribute(hid_t object, const char* name, std::string_view value,
                      const std::string& file);
-void write_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file);
-void write_attribute(hid_t object, const char* name, std::uint64_t value, const std::string& file);
-void write_attribute(hid_t object, const char* name, double value, const std::string& file);
 void write_attribute(hid_t object, const char* name, const std::vector<std::string>& values,
                      const std::string& file);
 /// A text whose place does not move when it is changed. h5py reads it as bytes.
@@ -78,15 +82,10 @@ void write_fixed_attribute(hid_t object, const char* name, std::string_view valu
 /// Overwrites the value of an existing attribute; a text of fixed length is cut or padded to it.
 void change_attribute(hid_t object, const char* name, std::string_view value,
                       const std::string& file);
-void change_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file);
-void change_attribute(hid_t object, const char* name, double value, const std::string& file);
 std::string read_string_attribute(hid_t object, const char* name, const std::string& file);
 /// Empty if there is no such attribute.
 std::vector<std::string> read_string_list_attribute(hid_t object, const char* name,
                                                     const std::string& file);
-std::int64_t read_integer_attribute(hid_t object, const char* name, const std::string& file);
-std::uint64_t read_count_attribute(hid_t object, const char* name, const std::string& file);
-double read_real_attribute(hid_t object, const char* name, const std::string& file);
 
 template <class T>
 hid_t native_type();
@@ -109,6 +108,27 @@ inline hid_t native_type<std::uint8_t>() {
 template <>
 inline hid_t native_type<std::uint64_t>() {
   return H5T_NATIVE_UINT64;
+}
+
+/// The number of an attribute.
+template <class T>
+T read_attribute(hid_t object, const char* name, const std::string& file) {
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  T value{};
+  if (!attribute || H5Aread(attribute.get(), native_type<T>(), &value) < 0) cannot_read(file, name);
+  return value;
+}
+template <class T>
+requires std::is_arithmetic_v<T>
+void write_attribute(hid_t object, const char* name, T value, const std::string& file) {
+  const Handle attribute = create_attribute(object, name, native_type<T>(), nullptr, file);
+  check(H5Awrite(attribute.get(), native_type<T>(), &value) >= 0, file);
+}
+template <class T>
+requires std::is_arithmetic_v<T>
+void change_attribute(hid_t object, const char* name, T value, const std::string& file) {
+  const Handle attribute = checked(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, file);
+  check(H5Awrite(attribute.get(), native_type<T>(), &value) >= 0, file);
 }
 
 /// Is there a link of this name?
@@ -168,10 +188,17 @@ void write_column(hid_t parent, const char* name, std::span<const T> values,
         file);
   check(dataset.close(), file);
 }
-template <class T>
-std::vector<T> read_column(hid_t parent, const char* name, const std::string& file);
 /// Opens a dataset of an archive that is read.
 Handle open_column(hid_t parent, const char* name, const std::string& file);
+template <class T>
+std::vector<T> read_column(hid_t parent, const char* name, const std::string& file) {
+  const Handle dataset = open_column(parent, name, file);
+  std::vector<T> values(rows_of(dataset.get(), file));
+  if (!values.empty() &&
+      H5Dread(dataset.get(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    cannot_read(file, name);
+  return values;
+}
 /// Reads rows row … row + count - 1.
 void read_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, void* values,
                const std::string& file);

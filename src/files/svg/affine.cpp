@@ -1,6 +1,5 @@
 #include "files/svg/affine.hpp"
 
-#include <array>
 #include <cmath>
 #include <string>
 #include <vector>

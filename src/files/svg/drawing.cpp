@@ -1,7 +1,6 @@
 #include "files/svg/drawing.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "base/printable.hpp"

@@ -1,6 +1,4 @@
 // The attribute d of a path.
-#include <cctype>
-#include <optional>
 #include <string>
 
 #include "files/svg/pen.hpp"

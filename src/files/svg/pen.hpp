@@ -1,7 +1,6 @@
 // What the elements of a drawing trace: lines, arcs and Bézier curves under a transform.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "files/svg/affine.hpp"

@@ -1,6 +1,5 @@
-#include "files/toml/drawing_file.hpp"
+#include "files/toml/read.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>

@@ -1,6 +1,4 @@
 // The one table of keys: parser, hints, --set and the guide's page are made from it.
-#include <fmt/format.h>
-
 #include "carom/files/system_file.hpp"
 
 namespace carom {
@@ -322,33 +320,6 @@ const std::vector<KeyDescription>& key_table() {
        "50"},
   };
   return keys;
-}
-
-std::string key_table_markdown() {
-  // There may be several of these, each under [[its name]].
-  const auto heading = [](std::string_view section) {
-    const bool list = section == "table.obstacle" || section == "table.hole" ||
-                      section == "table.wall" || section == "table.region" ||
-                      section == "table.loop" || section == "injection" || section == "potential";
-    return list ? fmt::format("[[{}]]", section) : std::string(section);
-  };
-  std::string page;
-  std::string_view section = "none";
-  for (const KeyDescription& key : key_table()) {
-    if (key.section != section) {
-      section = key.section;
-      page += section.empty() ? "### Above all sections\n\n"
-                              : fmt::format("\n### {}\n\n", heading(section));
-      page += "| key | for | type | default | meaning |\n|---|---|---|---|---|\n";
-    }
-    std::string kinds(key.kind);
-    for (std::size_t at = 0; (at = kinds.find('|', at)) != std::string::npos;)
-      kinds.replace(at, 1, ", ");
-    const std::string fallback = key.fallback.empty() ? "" : fmt::format("`{}`", key.fallback);
-    page += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.key, kinds, key.type, fallback,
-                        key.meaning);
-  }
-  return page;
 }
 
 }  // namespace carom

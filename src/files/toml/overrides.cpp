@@ -1,11 +1,14 @@
 #include "files/toml/overrides.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <utility>
 
 #include "files/toml/nesting.hpp"
 #include "files/toml/read.hpp"
+#include "files/toml/toml_section.hpp"
 
 namespace carom::files {
 namespace {
@@ -204,6 +207,15 @@ void apply(const SystemOverrides& overrides, Value& root) {
     root.find("run")->erase("times");
   if (!overrides.window.empty()) set_path(root, "run.window", window_of(overrides.window));
   place_start(overrides, root);
+}
+
+void halve_step(LoadedSystem& loaded) {
+  double& step = loaded.system.dynamics.integrator.step;
+  step *= 0.5;
+  Value root = parse_document(loaded.resolved_toml, loaded.system.name);
+  Value* const written = root.find("integrator")->find("step");
+  *written = number_value(fmt::format("{}", step), written->place);
+  loaded.resolved_toml = print_document(root);
 }
 
 }  // namespace carom::files

@@ -17,4 +17,7 @@ void apply(const SystemOverrides& overrides, Value& root);
 /// past the end appends.
 void set_path(Value& root, const std::string& path, Value value);
 
+/// Halves the step of a system that has one, in its resolved TOML, too.
+void halve_step(LoadedSystem&);
+
 }  // namespace carom::files

@@ -1,4 +1,4 @@
-#include "files/toml/points_file.hpp"
+#include "files/toml/read.hpp"
 
 #include <utility>
 

@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "carom/base/error.hpp"
 #include "carom/certify/exact_system.hpp"
 #include "carom/forces/force_spec.hpp"
 #include "carom/system/report_times.hpp"
 #include "carom/system/system.hpp"
+#include "carom/table/table.hpp"
 #include "carom/table/table_spec.hpp"
 #include "files/toml/toml_section.hpp"
 #include "files/toml/value.hpp"
@@ -50,5 +52,26 @@ ExactSystem read_exact(Value& root, bool free);
 inline std::string in_brackets(const ExactNumber& n) { return "(" + n.text() + ")"; }
 
 using carom::spaced;
+
+/// Replaces the shape svg by a path, whose loop is the outermost curve of the drawing, and by
+/// obstacles, which are the others; what is resolved can be run again without the file. Any other
+/// shape is left alone.
+void take_drawing(Value& table);
+
+/// Replaces the `path` of discs by centers (and radii, where the file has them), that of a polygon
+/// or a spline by points, so that what is resolved can be run again without the file. Anything else
+/// is left alone.
+void take_points_from_file(Value& table, const std::string& section);
+
+/// Turns kind = "file" into the list of the starts that the file holds, so that what is resolved
+/// can be run again without it. Anything else is left alone.
+void take_starts_from_file(Value& initial);
+
+/// Sets the speeds to the lengths of the listed velocities if neither speed nor energy is given.
+void take_speeds_from_starts(Value& root);
+
+/// Index of the wall or hole; an InputError at the place lists the names there are.
+int wall_named(const Table& table, const std::string& name, const Place& place);
+int hole_named(const Table& table, const std::string& name, const Place& place);
 
 }  // namespace carom::files

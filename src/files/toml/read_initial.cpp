@@ -3,8 +3,6 @@
 #include <numeric>
 
 #include "files/toml/read.hpp"
-#include "files/toml/starts_file.hpp"
-#include "files/toml/table_names.hpp"
 #include "table/direction.hpp"
 
 namespace carom::files {

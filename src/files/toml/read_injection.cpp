@@ -1,6 +1,5 @@
 // [[injection]].
 #include "files/toml/read.hpp"
-#include "files/toml/table_names.hpp"
 
 namespace carom::files {
 namespace {

@@ -2,7 +2,6 @@
 #include <utility>
 
 #include "files/toml/read.hpp"
-#include "files/toml/starts_file.hpp"
 
 namespace carom::files {
 namespace {

@@ -1,6 +1,5 @@
 #include "base/parts.hpp"
 #include "files/toml/read.hpp"
-#include "files/toml/table_names.hpp"
 
 namespace carom::files {
 namespace {

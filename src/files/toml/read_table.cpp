@@ -1,8 +1,5 @@
 #include <algorithm>
-#include <utility>
 
-#include "files/toml/drawing_file.hpp"
-#include "files/toml/points_file.hpp"
 #include "files/toml/read.hpp"
 
 namespace carom::files {

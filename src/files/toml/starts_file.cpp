@@ -1,4 +1,4 @@
-#include "files/toml/starts_file.hpp"
+#include "files/toml/read.hpp"
 
 #include <algorithm>
 #include <cmath>

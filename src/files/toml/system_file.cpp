@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "carom/engines/choose_step.hpp"
 #include "carom/events/decision_range.hpp"
@@ -95,7 +94,7 @@ void check_scales(const Value& root, const System& system, const Table& table) {
 void check_regions(const Value& root, const System& system, const Table& table) {
   for (std::size_t r = 0; r < table.regions.size(); ++r) {
     const Place& place = root.find("table")->find("region")->items[r].place;
-    if (!system.dynamics.forces->empty() || system.of_discs())
+    if (system.has_forces() || system.of_discs())
       throw InputError(place, "forces and hard discs know no regions",
                        "free particles, or no [[table.region]]");
     for (const Particle& p : system.particles) {
@@ -159,7 +158,7 @@ void check_number_of_pairs(const Value& root, const System& system) {
 void check_rest(const Value& root, const System& system) {
   const bool rests = std::any_of(system.particles.begin(), system.particles.end(),
                                  [](const Particle& p) { return p.speed == 0.0; });
-  if (!rests || system.of_discs() || !system.dynamics.forces->empty()) return;
+  if (!rests || system.of_discs() || system.has_forces()) return;
   const Value* speed = root.find("particles")->find("speed");
   throw InputError(speed ? speed->place : system.initial.place,
                    "the particle rests, and no force acts on it", "a velocity that is not zero");
@@ -224,10 +223,9 @@ LoadedSystem read_system(std::string_view toml, const std::string& file,
   check_scales(root, system, *table);
   const std::vector<double>& radii = system.dynamics.forces->disc_radii();
   for (std::size_t p = 0; p < radii.size(); ++p) system.particles[p].radius = radii[p];
-  system.dynamics.integrator = files::read_integrator(root, !system.dynamics.forces->empty(),
-                                                      system.particles, !table->walls.empty());
-  if (!system.dynamics.forces->empty())
-    system.energies = files::read_energies(root, system.particles.size());
+  system.dynamics.integrator =
+      files::read_integrator(root, system.has_forces(), system.particles, !table->walls.empty());
+  if (system.has_forces()) system.energies = files::read_energies(root, system.particles.size());
   system.initial = files::read_initial(root, *table, system.particles);
   // Where particles enter at random no trajectory repeats another.
   system.run =
@@ -237,7 +235,7 @@ LoadedSystem read_system(std::string_view toml, const std::string& file,
   check_number_of_samples(root, system);
   check_angles(root, system);
   system.injections = files::read_injections(root, *table, system.particles, system.run.t_max);
-  if (!system.dynamics.forces->empty()) refuse_injections(system, "a system with forces");
+  if (system.has_forces()) refuse_injections(system, "a system with forces");
   if (!radii.empty()) refuse_injections(system, "a system of hard discs");
   system.section = files::read_section(root, *table);
   system.table = std::move(table);

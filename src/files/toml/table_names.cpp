@@ -1,4 +1,4 @@
-#include "files/toml/table_names.hpp"
+#include "files/toml/read.hpp"
 
 #include <algorithm>
 #include <vector>

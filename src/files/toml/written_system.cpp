@@ -3,7 +3,6 @@
 #include "carom/base/error.hpp"
 #include "carom/files/system_file.hpp"
 #include "certify/number/exact_value.hpp"
-#include "certify/wall/ball_table.hpp"
 
 namespace carom {
 

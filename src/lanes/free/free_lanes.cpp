@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "carom/events/world.hpp"
 #include "lanes/free/filled_pack.hpp"
 #include "lanes/free/kernels.hpp"
 #include "lanes/free/lane_start.hpp"

@@ -2,7 +2,6 @@
 // one where the scalar engine does.
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "carom/lanes/lanes.hpp"

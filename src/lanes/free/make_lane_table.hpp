@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include "carom/table/table.hpp"
 #include "events/flight/piece_table.hpp"

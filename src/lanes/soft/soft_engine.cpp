@@ -1,9 +1,7 @@
 #include "lanes/soft/soft_engine.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
-#include <utility>
 
 #include "base/index.hpp"
 #include "carom/base/elementary.hpp"

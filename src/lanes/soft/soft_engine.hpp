@@ -57,7 +57,6 @@ class SoftEngine {
   void limit_hits(std::uint64_t hits) { limit_ = hits; }
   /// Called with each hit; false: the track ends there, as one that survives.
   void report_hits(std::function<bool(const SoftTrack&)> hit) { reported_hit_ = std::move(hit); }
-  bool has_walls() const { return !surroundings_.barriers.empty(); }
   double step() const { return step_; }
 
   /// Puts a state into a lane, and its cell right; accelerations are not set.

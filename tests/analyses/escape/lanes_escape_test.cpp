@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analyses/escape/records.hpp"
 #include "carom/analyses/escape.hpp"
 #include "carom/files/system_file.hpp"
 
@@ -28,11 +29,7 @@ Outcome run(const System& system, std::optional<InstructionSet> lanes, int threa
   how.lanes = lanes;
   how.threads = threads;
   how.block = block;
-  if (records)
-    how.records = [&](const std::vector<TrajectoryRecord>& more) {
-      r.records.insert(r.records.end(), more.begin(), more.end());
-    };
-  r.result = run_escape(system, how);
+  r.result = records ? run_escape(system, how, r.records) : run_escape(system, how);
   return r;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "analyses/escape/records.hpp"
 #include "carom/analyses/escape.hpp"
 #include "carom/files/system_file.hpp"
 
@@ -56,10 +57,7 @@ Outcome run(const System& system, std::optional<InstructionSet> lanes, int threa
   how.lanes = lanes;
   how.threads = threads;
   how.block = block;
-  how.records = [&](const std::vector<TrajectoryRecord>& more) {
-    r.records.insert(r.records.end(), more.begin(), more.end());
-  };
-  r.result = run_escape(system, how);
+  r.result = run_escape(system, how, r.records);
   return r;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "analyses/splitting/decay_rate.hpp"
 #include "analyses/systems.hpp"
 #include "carom/analyses/escape.hpp"
 #include "carom/analyses/escape/survival.hpp"

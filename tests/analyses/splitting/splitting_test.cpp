@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "analyses/splitting/decay_rate.hpp"
 #include "analyses/splitting/kick.hpp"
 #include "analyses/systems.hpp"
 #include "carom/analyses/escape.hpp"

@@ -20,7 +20,6 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <variant>
 
 #include "carom/geometry/vector.hpp"

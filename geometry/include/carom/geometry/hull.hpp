@@ -16,8 +16,7 @@ inline Box hull(const Box& a, const Box& b) {
 inline Box hull(const Box& box, Vector point) { return hull(box, Box{point, point}); }
 
 /// The hull of the boxes of all elements of a list that is not empty; `box_of(element)` is a box.
-template <class List, class BoxOf>
-Box hull_of(const List& list, BoxOf box_of) {
+Box hull_of(const auto& list, auto box_of) {
   Box whole = box_of(*std::begin(list));
   for (const auto& element : list) whole = hull(whole, box_of(element));
   return whole;

@@ -1,10 +1,8 @@
 // Lengths of free flights: their distribution between hits and from the start.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "carom/analyses/diffusion/mean_square_displacement.hpp"

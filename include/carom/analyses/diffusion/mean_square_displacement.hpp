@@ -136,8 +136,7 @@ class DisplacementMoments {
     std::vector<double> square, fourth, velocities, along;
     void add(const Rounded& all, const Rounded& out);
   };
-  template <class Statistic>
-  double error_of(Statistic, double whole) const;
+  double error_of(auto, double whole) const;
 
   std::vector<double> times_;
   std::size_t particles_;

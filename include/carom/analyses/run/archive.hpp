@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +20,7 @@ class RunArchive : public Observer {
  public:
   static std::unique_ptr<RunArchive> create(const std::string& file, const LoadedSystem&,
                                             const Provenance&, bool force,
-                                            std::optional<std::uint64_t> trajectory = 0,
-                                            ArchiveLock = nullptr);
+                                            std::uint64_t trajectory = 0, ArchiveLock = nullptr);
   /// Goes on with the run stored in `source`: works on a copy aside, which becomes `target`
   /// (often the source itself) when finished.
   static std::unique_ptr<RunArchive> extend(const std::string& source, const std::string& target,
@@ -62,7 +60,7 @@ struct StoredRun {
   StepCounts steps;
   Evaluations evaluations;
   double seconds = 0.0, cpu_seconds = 0.0;
-  std::optional<std::uint64_t> trajectory;  ///< none: an earlier build did not store it
+  std::uint64_t trajectory = 0;
 };
 /// Throws InputError for anything but the archive of a finished or interrupted run.
 StoredRun read_run(const std::string& file);
@@ -70,7 +68,7 @@ StoredRun read_run(const std::string& file);
 /// The rows of a run's archive. Throw InputError for anything else.
 std::vector<HitRow> read_hits(const std::string& file);
 std::vector<SampleRow> read_samples(const std::string& file);
-/// The starts, a row a particle; none in archives of earlier builds.
+/// The starts, a row a particle.
 std::vector<SampleRow> read_starts(const std::string& file);
 /// None where the archive has no such group: no hard discs; no forces and no hard discs.
 std::vector<ContactRow> read_contacts(const std::string& file);

@@ -1,21 +1,22 @@
 // A command that runs an ensemble on several ranks: each flies its share into an archive of its
 // own, as --shard does, and the first rank adds them up, as `carom merge` does. A rank that fails
 // says why, and ends all.
-#pragma once
-
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "cli/commands/commands.hpp"
 #include "cli/commands/run_ensemble.hpp"
 #include "cli/temporary_folder.hpp"
 #include "files/checkpoint/rank_parts.hpp"
 #include "files/checkpoint/work_folder.hpp"
-#include "files/toml/halved_step.hpp"
+#include "files/toml/overrides.hpp"
 
 namespace carom::cli {
+
+namespace {
 
 /// Flies this rank's share into the archive `part`.
 template <class Result>
@@ -89,6 +90,8 @@ std::optional<int> add_up(const Options& options, EnsembleJob<Result>& job, cons
   return report_and_say_how_to_go_on(options, job, sum.result, sum.status, own_step);
 }
 
+}  // namespace
+
 template <class Result>
 int run_shared(const Options& asked, Ranks& ranks) {
   const bool first = ranks.rank() == 0;
@@ -138,10 +141,16 @@ int run_shared(const Options& asked, Ranks& ranks) {
   }
 }
 
-template <class Result>
-int run_ensemble(const Options& options) {
-  if (Ranks* const ranks = start_ranks()) return run_shared<Result>(options, *ranks);
-  return run_alone<Result>(options);
+int ensemble(const Options& options) {
+  int status = bad_input;
+  for_kind(options.command, [&]<class Result>(std::type_identity<Result>) {
+    status = run_ensemble<Result>(options);
+  });
+  return status;
 }
+
+#define CAROM_MAKE(Result) template int run_shared<Result>(const Options&, Ranks&);
+CAROM_FOR_ENSEMBLES(CAROM_MAKE)
+#undef CAROM_MAKE
 
 }  // namespace carom::cli
