@@ -66,7 +66,7 @@ TEST(ExitsBySigns, AreThoseOfExactArithmetic) {
 }
 
 // A spike that reaches into the cap of an arc is met by flights that leave and reach that arc, too;
-// joints on the chord of a cap are in nobody's way.
+// joints on the chord of a cap do not count as within it.
 TEST(ExitsBySigns, AreNotAskedForWhereAJointLiesInACap) {
   const double s = std::sqrt(0.5);
   for (const double tip : {-0.5, 2.0}) {

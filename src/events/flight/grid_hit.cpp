@@ -261,6 +261,7 @@ void HitFinder::next_in_grid(const Flight& f, Ahead& ahead, DecisionCounts& coun
   look_from(f);
   if (flights_ > 0xfffffff0u) {  // the counter of flights begins again
     std::fill(seen_.begin(), seen_.end(), 0);
+    std::fill(seen_offsets_.begin(), seen_offsets_.end(), 0);
     flights_ = 0;
   }
   if (filtered_among_many(f, ahead)) {

@@ -351,6 +351,8 @@ void PieceTable::Preparation::find_signs(bool complement) {
     if (p.closed || w.orientation < 0.0 || p.kind > CurveKind::circle) return;
     if (p.kind == CurveKind::segment) continue;
     const Vector chord = w.to - w.from;
+    // Some thousand times what the distances below can err by: a joint as near to the circle is
+    // taken to be within, so that the table goes without this.
     const double radius = std::sqrt(w.r2) + 0x1p-40 * (std::sqrt(w.r2) + made_.reach + w.extent);
     for (const PieceData& other : data) {
       const Vector joint = other.shape->from, e = joint - w.centre;
