@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "carom/base/elementary.hpp"
@@ -132,6 +133,11 @@ Sampler::Sampler(const System& system, std::function<bool()> stopped)
   const Table& table = *system.table;
   const InitialCondition& initial = system.initial;
   for (const Wall& wall : table.walls) frames_.push_back(geometry::frame_of(wall.curve));
+  walls_ = initial.walls;
+  if (walls_.empty()) {
+    walls_.resize(table.walls.size());
+    std::iota(walls_.begin(), walls_.end(), 0);
+  }
   const bool on_a_wall = initial.kind == Kind::boundary || initial.kind == Kind::hole ||
                          initial.kind == Kind::birkhoff;
   if (on_a_wall && system.of_discs())
@@ -151,10 +157,8 @@ Sampler::Sampler(const System& system, std::function<bool()> stopped)
     }
     case Kind::boundary:
       if (initial.hole >= 0) add_holes(initial.hole);
-      for (int wall = 0; initial.hole < 0 && wall < static_cast<int>(table.walls.size()); ++wall) {
-        if (initial.wall < 0 || initial.wall == wall)
-          add_source(wall, 0.0, frames_[static_cast<std::size_t>(wall)].end);
-      }
+      for (const int wall : walls_)
+        if (initial.hole < 0) add_source(wall, 0.0, frames_[static_cast<std::size_t>(wall)].end);
       if (sources_.empty()) throw impossible(initial, "the table has no wall to start from");
       break;
     case Kind::hole:
@@ -164,6 +168,7 @@ Sampler::Sampler(const System& system, std::function<bool()> stopped)
     case Kind::birkhoff:
       if (initial.s.empty() || initial.s.size() != initial.v_parallel.size())
         throw impossible(initial, "s and v_parallel must be given in pairs");
+      if (walls_.empty()) throw impossible(initial, "the table has no wall to start from");
       break;
     case Kind::rectangle:
       if (beside(table, initial.low, initial.high)) throw missed_rectangle(initial);
@@ -345,11 +350,14 @@ State Sampler::birkhoff(std::uint64_t number, double speed) const {
     throw impossible(initial,
                      fmt::format("v_parallel = {} is not below the speed {}", tangential, speed),
                      "-speed < v_parallel < speed");
-  // Without a wall, s runs along all walls, one after the other.
-  const bool all = initial.wall < 0;
-  std::size_t wall = all ? 0 : static_cast<std::size_t>(initial.wall);
-  while (all && wall + 1 < frames_.size() && s >= geometry::length(frames_[wall]))
-    s -= geometry::length(frames_[wall++]);
+  // Along several walls s runs on from one to the next.
+  auto at = walls_.begin();
+  const auto index = [&] { return static_cast<std::size_t>(*at); };
+  while (at + 1 != walls_.end() && s >= geometry::length(frames_[index()])) {
+    s -= geometry::length(frames_[index()]);
+    ++at;
+  }
+  const std::size_t wall = index();
   const double length = geometry::length(frames_[wall]);
   if (!(s >= 0.0 && s < length))
     throw impossible(initial, fmt::format("s = {} is not on the wall '{}' of length {}",

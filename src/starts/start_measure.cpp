@@ -17,7 +17,7 @@ bool lets_go(const Table& table) {
 bool on_all_walls(const System& system) {
   const InitialCondition& initial = system.initial;
   return initial.kind == Kind::boundary && initial.hole < 0 &&
-         (initial.wall < 0 || system.table->walls.size() == 1);
+         (initial.walls.empty() || initial.walls.size() == system.table->walls.size());
 }
 
 }  // namespace

@@ -148,7 +148,7 @@ class Division {
 
   /// An obstacle gets walls within.
   void enter(const RegionSpec& one, int region) {
-    const int named = named_wall(one.wall, one.wall_place, table_);
+    const int named = walls_named(one.wall, one.wall_place, table_).front();
     const std::vector<int> loop = walls_from(named, named);
     if (wall(named).twin >= 0)
       throw InputError(one.wall_place, "wall '" + one.wall + "' bounds another region already",

@@ -1,4 +1,4 @@
-// Holes: arc lengths along a wall become parameters of its curve.
+// Walls by their names, and holes: arc lengths along walls become parameters of their curves.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,21 +15,30 @@ bool beyond(double s, double length) {
   return s > length * (1 + 4 * std::numeric_limits<double>::epsilon());
 }
 
+/// Has a wall the name and a number, as in NAME_12?
+bool is_numbered(const std::string& wall, const std::string& name) {
+  return wall.size() > name.size() + 1 && wall.starts_with(name) && wall[name.size()] == '_' &&
+         wall.find_first_not_of("0123456789", name.size() + 1) == std::string::npos;
+}
+
 class Opening {
  public:
-  Opening(const HoleSpec& hole, const std::string& name, int wall, Table& table)
+  Opening(const HoleSpec& hole, const std::string& name, Table& table)
       : hole_(hole),
         name_(name),
-        wall_(wall),
         table_(table),
-        curve_(table.walls[wall_index()].curve) {
-    if (table.walls[wall_index()].twin >= 0)
-      throw InputError(hole.wall_place, "particles pass wall '" + hole.wall + "' of a region",
-                       "a hole of another wall");
+        walls_(stretch_named(hole.wall, hole.wall_place, table)) {
+    starts_.push_back(0.0);
+    for (const int k : walls_) {
+      if (wall(k).twin >= 0)
+        throw InputError(hole.wall_place, "particles pass wall '" + hole.wall + "' of a region",
+                         "a hole of another wall");
+      starts_.push_back(starts_.back() + geometry::length(wall(k).curve));
+    }
   }
 
   void cut() {
-    const double length = geometry::length(curve_);
+    const double length = starts_.back();
     const double width = size_of(hole_.width, "width");
     if (beyond(width, length)) {
       throw InputError(hole_.width.place(), "the hole is wider than its wall",
@@ -44,46 +53,53 @@ class Opening {
       throw InputError(hole_.center.place(), "the hole's center is not on the wall",
                        "an arc length from 0 to " + ExactNumber(length).text());
     }
-    const bool closed = geometry::is_closed(curve_);
+    const bool closed = wall(walls_.back()).next == walls_.front();
     if (!closed && (from < 0 || beyond(to, length))) {
       throw InputError(hole_.center.place(),
                        "the hole reaches over the end of its wall '" + hole_.wall + "'",
                        "a hole within 0 … " + ExactNumber(length).text() + " of arc length");
     }
+    const std::size_t before = table_.holes.size();
     if (closed && to - from >= length) {
-      add(0.0, end());  // all of it, wherever it begins
+      add(0.0, length);  // all of it, wherever it begins
     } else if (from < 0) {
-      add(parameter(length + from, length), end());
-      add(0.0, parameter(to, length));
+      add(length + from, length);
+      add(0.0, to);
     } else if (beyond(to, length)) {
-      add(parameter(from, length), end());
-      add(0.0, parameter(to - length, length));
+      add(from, length);
+      add(0.0, to - length);
     } else {
-      add(parameter(from, length), parameter(to, length));
+      add(from, to);
     }
+    if (table_.holes.size() == before)
+      throw InputError(hole_.width.place(), "the hole is too narrow for double precision",
+                       "a wider hole");
   }
 
  private:
-  std::size_t wall_index() const { return static_cast<std::size_t>(wall_); }
-  double end() const { return geometry::end_parameter(curve_); }
-  double parameter(double s, double length) const {
-    if (!(s > 0)) return 0.0;
-    return s < length ? geometry::parameter_at_length(curve_, s) : end();
-  }
+  Wall& wall(int index) const { return table_.walls[static_cast<std::size_t>(index)]; }
+  /// What lies on each wall between two arc lengths along all of them.
   void add(double from, double to) {
-    if (!(from < to)) {
-      throw InputError(hole_.width.place(), "the hole is too narrow for double precision",
-                       "a wider hole");
+    for (std::size_t k = 0; k < walls_.size(); ++k) {
+      const double first = parameter(k, from), last = parameter(k, to);
+      if (!(first < last)) continue;
+      wall(walls_[k]).holes.push_back(static_cast<int>(table_.holes.size()));
+      table_.holes.push_back({name_, walls_[k], first, last, hole_.transmission});
     }
-    table_.walls[wall_index()].holes.push_back(static_cast<int>(table_.holes.size()));
-    table_.holes.push_back({name_, wall_, from, to, hole_.transmission});
+  }
+  /// On that wall, or at its nearer end.
+  double parameter(std::size_t k, double s) const {
+    const geometry::Curve& curve = wall(walls_[k]).curve;
+    if (!(s > starts_[k])) return 0.0;
+    return s < starts_[k + 1] ? geometry::parameter_at_length(curve, s - starts_[k])
+                              : geometry::end_parameter(curve);
   }
 
   const HoleSpec& hole_;
   const std::string& name_;
-  int wall_;
   Table& table_;
-  const geometry::Curve& curve_;
+  const std::vector<int> walls_;
+  std::vector<double> starts_;  ///< arc lengths at which the walls begin, and the last one ends
 };
 
 }  // namespace
@@ -102,6 +118,36 @@ int named_wall(const std::string& name, const Place& place, const Table& table) 
                    nearest_name(name, names));
 }
 
+std::vector<int> walls_named(const std::string& name, const Place& place, const Table& table) {
+  std::vector<int> walls;
+  for (int k = 0; k < static_cast<int>(table.walls.size()); ++k)
+    if (is_numbered(table.wall(k).name, name)) walls.push_back(k);
+  if (walls.empty() || table.wall_index(name) >= 0) return {named_wall(name, place, table)};
+  return walls;
+}
+
+std::vector<int> stretch_named(const std::string& name, const Place& place, const Table& table) {
+  const std::vector<int> named = walls_named(name, place, table);
+  std::vector<bool> marked(table.walls.size());
+  for (const int k : named) marked[static_cast<std::size_t>(k)] = true;
+  const auto among = [&](int wall) { return wall >= 0 && marked[static_cast<std::size_t>(wall)]; };
+  // All round it begins where the numbers do: the walls of obstacles run the other way.
+  const int one = table.wall_index(name + "_1"), two = table.wall_index(name + "_2");
+  int first = among(one) ? one : named.front();
+  if (first == one && two >= 0 && table.wall(one).next != two) first = table.wall(one).next;
+  // Else it begins where nothing of the name comes before.
+  for (const int k : named)
+    if (!among(table.wall(k).previous)) first = k;
+  std::vector<int> walls{first};
+  for (int k = table.wall(first).next; k != first && among(k); k = table.wall(k).next)
+    walls.push_back(k);
+  if (walls.size() < named.size())
+    throw InputError(place,
+                     "the walls '" + name + "_1', '" + name + "_2' … do not follow each other",
+                     "one of them");
+  return walls;
+}
+
 void add_holes(const TableSpec& spec, Table& table) {
   std::vector<std::size_t> origin;  // which specification a hole of the table came from
   std::vector<std::string> names;
@@ -112,7 +158,7 @@ void add_holes(const TableSpec& spec, Table& table) {
       throw InputError(hole.place, "two holes are called '" + name + "'", "a name of its own");
     }
     names.push_back(name);
-    Opening(hole, name, named_wall(hole.wall, hole.wall_place, table), table).cut();
+    Opening(hole, name, table).cut();
     origin.resize(table.holes.size(), k);
   }
   for (Wall& wall : table.walls) {
@@ -138,14 +184,21 @@ void add_laws(const TableSpec& spec, Table& table) {
     if (law.temperature > 0.0 && !table.regions.empty())
       throw InputError(law.place, "walls that change speeds beside regions that change them",
                        "another law, or no [[table.region]]");
-    const int named = law.wall.empty() ? -1 : named_wall(law.wall, law.wall_place, table);
+    std::vector<bool> meant;
+    for (const Wall& wall : table.walls) meant.push_back(law.wall.empty() && !is_passed(wall));
     // The edge of a region that is given a law is a wall, from either side; its inner side may then
     // get another one.
-    const bool one = named >= 0 && table.wall(named).closed && is_inner_side(table, named);
-    const int other = named < 0 || one ? -1 : table.wall(named).twin;
-    for (int k = 0; k < static_cast<int>(table.walls.size()); ++k) {
-      Wall& wall = table.walls[static_cast<std::size_t>(k)];
-      if (named < 0 ? is_passed(wall) : k != named && k != other) continue;
+    if (!law.wall.empty()) {
+      for (const int k : walls_named(law.wall, law.wall_place, table)) {
+        const Wall& wall = table.wall(k);
+        meant[static_cast<std::size_t>(k)] = true;
+        if (wall.twin >= 0 && !(wall.closed && is_inner_side(table, k)))
+          meant[static_cast<std::size_t>(wall.twin)] = true;
+      }
+    }
+    for (std::size_t k = 0; k < table.walls.size(); ++k) {
+      if (!meant[k]) continue;
+      Wall& wall = table.walls[k];
       wall.closed = wall.twin >= 0;
       wall.specularity = law.specularity;
       wall.roughness = law.roughness;

@@ -123,6 +123,11 @@ void add_holes(const TableSpec& spec, Table& table);
 void add_laws(const TableSpec& spec, Table& table);
 /// The wall of that name; InputError at the place where there is none.
 int named_wall(const std::string& name, const Place& place, const Table& table);
+/// The same, or all walls NAME_1, NAME_2 … where none is called NAME.
+std::vector<int> walls_named(const std::string& name, const Place& place, const Table& table);
+/// These in the order in which they follow each other, from where the numbers begin. InputError if
+/// they do not.
+std::vector<int> stretch_named(const std::string& name, const Place& place, const Table& table);
 /// Divides a table into its regions and what is outside of them. Walls that particles pass get a
 /// twin each, which is seen from within. `nested`: obstacles lie in obstacles.
 void divide(const TableSpec& spec, Table& table, bool nested);

@@ -57,7 +57,7 @@ void expect_same(const System& a, const System& b) {
     EXPECT_EQ(a.particles[k].omega, b.particles[k].omega);
   }
   EXPECT_EQ(a.initial.kind, b.initial.kind);
-  EXPECT_EQ(a.initial.wall, b.initial.wall);
+  EXPECT_EQ(a.initial.walls, b.initial.walls);
   EXPECT_EQ(a.initial.hole, b.initial.hole);
   EXPECT_EQ(a.initial.position, b.initial.position);
   EXPECT_EQ(a.initial.velocity, b.initial.velocity);

@@ -241,6 +241,37 @@ v_parallel = [0, -1.5, 2.9]
   }
 }
 
+TEST(Sampler, BirkhoffStartsRunOnOverWallsThatAreNumbered) {
+  const Drawn draw(R"(
+[table]
+shape = "regular"
+sides = 4
+radius = 1
+[initial]
+kind = "birkhoff"
+wall = "side"
+s = ["sqrt(2)/2", "sqrt(2)*5/2"]
+v_parallel = 0
+)");
+  EXPECT_NEAR(length(draw(0).position - Vector{0.5, 0.5}), 0.0, 1e-15);
+  EXPECT_NEAR(length(draw(1).position - Vector{-0.5, -0.5}), 0.0, 1e-15);
+  const Drawn some(R"(
+[table]
+shape = "rectangle"
+width = 1
+height = 1
+[[table.obstacle]]
+shape = "polygon"
+name = "wedge"
+points = [[0.2, 0.2], [0.4, 0.2], [0.3, 0.4]]
+[initial]
+kind = "boundary"
+wall = "wedge_side"
+)");
+  for (std::uint64_t i = 0; i < 100; ++i)
+    EXPECT_TRUE(some.system.table->wall(some(i).wall).name.starts_with("wedge_side_"));
+}
+
 TEST(Sampler, PointIsTakenDigitForDigit) {
   const Drawn draw(R"(
 [table]

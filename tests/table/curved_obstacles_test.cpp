@@ -1,4 +1,5 @@
 // [[table.obstacle]] of curves: paths, formulas and splines, by the code that makes tables of them.
+#include <cmath>
 #include <numbers>
 
 #include "spec.hpp"
@@ -93,6 +94,17 @@ TEST(CurvedObstacles, RunClockwiseWhicheverWayTheyAreWritten) {
   EXPECT_TRUE(is_legal(with(square(), parametric("2 + cos(t)", "2 - 0.5*sin(t)"))));
   EXPECT_TRUE(is_legal(with(square(), spline({at("1", "1"), at("2", "1"), at("2", "2")}))));
   EXPECT_TRUE(is_legal(with(square(), spline({at("2", "2"), at("2", "1"), at("1", "1")}))));
+}
+
+TEST(CurvedObstacles, HaveHolesThatRunClockwiseFromTheirStart) {
+  const Table table = build_table(
+      with_hole(with(square(), polar("0.5", at("2", "2"))), "obstacle_1", "pi/4", "0.2"));
+  const Hole &first = table.holes.front(), &last = table.holes.back();
+  const geometry::Vector from = geometry::point_at(table.wall(first.wall).curve, first.from),
+                         to = geometry::point_at(table.wall(last.wall).curve, last.to);
+  EXPECT_NEAR(from.x, 2.0 + 0.5 * std::sin(0.2), 1e-13);
+  EXPECT_NEAR(to.x, 2.0 - 0.5 * std::sin(0.2), 1e-13);
+  EXPECT_NEAR(from.y, 2.0 - 0.5 * std::cos(0.2), 1e-13);
 }
 
 TEST(CurvedObstacles, AreTheTablesCurvesSeenFromOutside) {

@@ -97,6 +97,44 @@ TEST(Holes, WrapPastTheStartOfAClosedCurve) {
   }
 }
 
+/// The stretches of the holes, as "wall from to".
+std::vector<std::string> parts(const Table& table) {
+  std::vector<std::string> all;
+  for (const Hole& hole : table.holes)
+    all.push_back(table.wall(hole.wall).name + " " +
+                  std::to_string(length_to(table, hole, hole.from)) + " " +
+                  std::to_string(length_to(table, hole, hole.to)));
+  return all;
+}
+
+TEST(Holes, RunOnOverWallsThatAreNumbered) {
+  const TableSpec hexagon = shape("regular", {{"sides", "6"}, {"radius", "1"}});
+  using Parts = std::vector<std::string>;
+  const Table across = build_table(with_hole(hexagon, "side", "1.25", "1"));
+  EXPECT_EQ(parts(across), (Parts{"side_1 0.750000 1.000000", "side_2 0.000000 0.750000"}));
+  EXPECT_EQ(hole_names(across), Parts{"hole_1"});
+  EXPECT_EQ(across.holes[1].from, 0.0);
+  EXPECT_EQ(parts(build_table(with_hole(hexagon, "side", "0", "2.5"))),
+            (Parts{"side_5 0.750000 1.000000", "side_6 0.000000 1.000000",
+                   "side_1 0.000000 1.000000", "side_2 0.000000 0.250000"}));
+  EXPECT_EQ(build_table(with_hole(hexagon, "side", "3", "6")).holes.size(), 6u);
+  EXPECT_EQ(blamed(with_hole(hexagon, "side", "3", "6.1")), "table.hole[0].width");
+  EXPECT_EQ(blamed(with_hole(with_hole(hexagon, "side", "1", "1"), "side_2", "0.2", "0.1")),
+            "table.hole[1].center");
+  // A curve of formulas is its circle's, and an obstacle runs the other way from the same point.
+  TableSpec curve = shape("polar");
+  curve.formulas["radius"] = {"1", {}};
+  const Table table = build_table(with_hole(curve, "curve", "pi/2", "1")),
+              round = build_table(with_hole(circle, "circle", "pi/2", "1"));
+  const auto ends = [](const Table& t) {
+    return std::pair{geometry::point_at(t.wall(t.holes.front().wall).curve, t.holes.front().from),
+                     geometry::point_at(t.wall(t.holes.back().wall).curve, t.holes.back().to)};
+  };
+  EXPECT_GT(table.holes.size(), 2u);
+  EXPECT_NEAR(length(ends(table).first - ends(round).first), 0.0, 1e-14);
+  EXPECT_NEAR(length(ends(table).second - ends(round).second), 0.0, 1e-14);
+}
+
 TEST(Holes, FaultsAreFoundAtTheirPlace) {
   const InputError unknown = fault(with_hole(square, "botom", "1/2", "0.1"));
   EXPECT_EQ(unknown.place().key, "table.hole[0].wall");

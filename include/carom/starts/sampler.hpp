@@ -105,6 +105,7 @@ class Sampler {
   const System& system_;
   std::function<bool()> stopped_;
   std::vector<geometry::CurveFrame> frames_;  ///< one a wall
+  std::vector<int> walls_;                    ///< of starts on walls: those that are named, or all
   std::vector<Source> sources_;
   geometry::Vector low_, high_;                              ///< uniform: box around the domain
   std::shared_ptr<const starts::QuasiRandom> quasi_random_;  ///< sobol

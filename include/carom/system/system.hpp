@@ -29,7 +29,7 @@ struct InitialCondition {
     line,
     list
   } kind = Kind::uniform;
-  int wall = -1;                      ///< boundary, birkhoff
+  std::vector<int> walls;             ///< boundary, birkhoff: one after the other; none: all
   int hole = -1;                      ///< boundary, hole
   geometry::Vector position;          ///< point
   geometry::Vector velocity;          ///< point: direction, or the velocity where no speed is set

@@ -45,6 +45,12 @@ void check_walls(const ExactSystem& system) {
     if ((brim == Sign::positive) != (system.table->wall_index("brim_left") >= 0))
       throw other_walls();
   }
+  for (const HoleSpec& hole : spec.holes)
+    if (system.table->wall_index(hole.wall) < 0)
+      throw InputError(
+          hole.wall_place,
+          "certified orbits leave through holes of one wall, and '" + hole.wall + "' are several",
+          "one of these walls");
   const BallTable table = ball_table(spec);
   for (std::size_t k = 0; k < rounded.size(); ++k) {
     const bool counterclockwise = table.walls[k].turn > 0;

@@ -70,8 +70,7 @@ void take_starts_from_file(Value& initial);
 /// Sets the speeds to the lengths of the listed velocities if neither speed nor energy is given.
 void take_speeds_from_starts(Value& root);
 
-/// Index of the wall or hole; an InputError at the place lists the names there are.
-int wall_named(const Table& table, const std::string& name, const Place& place);
+/// Index of the hole; an InputError at the place lists the names there are.
 int hole_named(const Table& table, const std::string& name, const Place& place);
 
 }  // namespace carom::files

@@ -4,6 +4,7 @@
 
 #include "files/toml/read.hpp"
 #include "table/direction.hpp"
+#include "table/shapes.hpp"
 
 namespace carom::files {
 namespace {
@@ -71,12 +72,13 @@ void combine(const Axis& s, const Axis& v, const Place& place, InitialCondition&
 void read_birkhoff(TomlSection& section, const Table& table, const std::vector<Particle>& particles,
                    InitialCondition& initial) {
   const Value& wall = section.get("wall");
-  initial.wall = wall_named(table, as_text(wall), wall.place);
+  initial.walls = table::shapes::stretch_named(as_text(wall), wall.place, table);
   Value& s = section.get("s");
   const Axis s_axis = read_axis(s);
   Value& v = section.get("v_parallel");
   const Axis v_axis = read_axis(v);
-  const double length = geometry::length(table.walls[static_cast<std::size_t>(initial.wall)].curve);
+  double length = 0.0;
+  for (const int k : initial.walls) length += geometry::length(table.wall(k).curve);
   for (const double value : s_axis.values) {
     if (value >= 0 && value < length) continue;
     throw InputError(s.place, "the wall has no arc length " + shown(value),
@@ -185,7 +187,7 @@ InitialCondition read_initial(Value& root, const Table& table,
     case Kind::boundary:
       section.exclude("wall", "hole");
       if (const Value* wall = section.find("wall"))
-        initial.wall = wall_named(table, as_text(*wall), wall->place);
+        initial.walls = table::shapes::walls_named(as_text(*wall), wall->place, table);
       if (const Value* hole = section.find("hole"))
         initial.hole = hole_named(table, as_text(*hole), hole->place);
       break;

@@ -1,5 +1,6 @@
 #include "base/parts.hpp"
 #include "files/toml/read.hpp"
+#include "table/shapes.hpp"
 
 namespace carom::files {
 namespace {
@@ -44,7 +45,7 @@ void read_on(const Value& value, const Table& table, SectionPlan& plan) {
   const Place& place = value.place;
   if (text == "boundary") return;
   if (text.starts_with("wall:")) {
-    plan.wall = wall_named(table, text.substr(5), place);
+    plan.wall = table::shapes::named_wall(text.substr(5), place, table);
     return;
   }
   plan.boundary = false;

@@ -7,15 +7,6 @@
 
 namespace carom::files {
 
-int wall_named(const Table& table, const std::string& name, const Place& place) {
-  const int wall = table.wall_index(name);
-  if (wall >= 0) return wall;
-  std::vector<std::string> names;
-  for (const Wall& w : table.walls) names.push_back(w.name);
-  throw InputError(place, "unknown wall '" + name + "'", "one of " + listed(names),
-                   nearest_name(name, names));
-}
-
 int hole_named(const Table& table, const std::string& name, const Place& place) {
   const int hole = table.hole_index(name);
   if (hole >= 0) return hole;
