@@ -25,7 +25,8 @@ def table(
     loaded = system._loaded("table")
     walls = _carom.walls(loaded)
     style = style_of(style, color=WALL, linewidth=1.2 if len(cells) < 6 else 0.8)
-    _walls(loaded, walls, ax, list(cells), style)
+    holes = _holes(walls)
+    _walls(loaded, walls, holes, ax, list(cells), style)
     if "label" in style:
         legend(ax)
     if levels and not ax.has_data():  # the open plane
@@ -49,7 +50,7 @@ def table(
             if pieces:
                 arrow(ax, max(pieces, key=len), style["color"])
     if names:
-        labels = [(h, *_middle(piece), COLOURS[1]) for _, _, hs, _ in walls for h, piece in hs]
+        labels = [(name, *_middle(line), COLOURS[1]) for name, line in holes]
         if len(walls) <= 12:
             for name, pieces, *_ in walls:
                 if pieces:
@@ -62,13 +63,45 @@ def table(
     return ax
 
 
-def _walls(loaded, walls, ax, cells, style):
+def _holes(walls):
+    """Names and lines of the holes; one that runs on over several walls is one line."""
+    pieces = {}
+    for _, _, holes, _ in walls:
+        for name, piece in holes:
+            pieces.setdefault(name, []).append(piece)
+    return [(name, line) for name, parts in pieces.items() for line in _joined(parts)]
+
+
+def _joined(pieces):
+    """Lines, put together of pieces that begin where others end."""
+    closed, open_ = [], []
+    for piece in pieces:
+        line, apart = [piece], []
+        for other in open_:
+            if _same(other[-1][-1], line[0][0]):
+                line = other + line
+            elif _same(line[-1][-1], other[0][0]):
+                line = line + other
+            else:
+                apart.append(other)
+        done = _same(line[0][0], line[-1][-1])
+        (closed if done else apart).append(line)
+        open_ = apart
+    return [numpy.concatenate(line) for line in closed + open_]
+
+
+def _walls(loaded, walls, holes, ax, cells, style):
     """Walls and holes over what is inside. Of a lattice each cell, with what reaches into it from its neighbours."""
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path
 
     edges = _carom.cell(loaded)
     loops = _filled(_carom.parts(loaded))
+    lines = [
+        (line, entered)
+        for entered in (False, True)
+        for line in _joined([piece for _, pieces, _, passed in walls if passed == entered for piece in pieces])
+    ]
     around = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)] if edges else [(0, 0)]
     near = {(a + i, b + j) for a, b in cells for i, j in around}
     shown = None
@@ -86,18 +119,17 @@ def _walls(loaded, walls, ax, cells, style):
             if not shown or _touch(loop + shift, reach):
                 path = Path(loop + shift, closed=True)
                 drawn.append(ax.add_patch(PathPatch(path, linewidth=0, zorder=0.2, facecolor=colour)))
-        for _, pieces, holes, entered in walls:
-            for piece in pieces:
-                if shown and not _touch(piece + shift, reach):
-                    continue
-                usual = {"zorder": 3, "solid_capstyle": "round"} | style
-                if entered:  # no wall: particles pass
-                    usual |= {"linewidth": 0.5 * style["linewidth"], "linestyle": (0, (6, 1.5))}
-                drawn += ax.plot(*(piece + shift).T, **usual)
-                style = {key: one for key, one in style.items() if key != "label"}
-            for _, piece in holes:
-                hole = {"color": COLOURS[1], "linewidth": 1.4, "linestyle": (0, (2, 1.5))}
-                drawn += ax.plot(*(piece + shift).T, zorder=3, **hole)
+        for line, entered in lines:
+            if shown and not _touch(line + shift, reach):
+                continue
+            usual = {"zorder": 3, "solid_capstyle": "round"} | style
+            if entered:  # no wall: particles pass
+                usual |= {"linewidth": 0.5 * style["linewidth"], "linestyle": (0, (6, 1.5))}
+            drawn += ax.plot(*(line + shift).T, **usual)
+            style = {key: one for key, one in style.items() if key != "label"}
+        for _, line in holes:
+            hole = {"color": COLOURS[1], "linewidth": 1.4, "linestyle": (0, (2, 1.5))}
+            drawn += ax.plot(*(line + shift).T, zorder=3, **hole)
         if shown:
             for one in drawn:
                 one.set_clip_path(shown)

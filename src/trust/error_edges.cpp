@@ -73,7 +73,10 @@ bool ErrorEdges::same_arrival(const Particle& particle, const State& start, cons
 bool ErrorEdges::same_hole(const Particle& particle, const State& start, const Deviation& d,
                            int hole, double latest) {
   PieceTable::Landing landing;
-  return land(particle, start, d, latest, landing) && landing.hole == hole;
+  if (!land(particle, start, d, latest, landing) || landing.hole < 0) return false;
+  const std::vector<Hole>& holes = finder_.pieces().table.holes;  // parts of one have its name
+  return holes[static_cast<std::size_t>(landing.hole)].name ==
+         holes[static_cast<std::size_t>(hole)].name;
 }
 
 }  // namespace carom::trust
