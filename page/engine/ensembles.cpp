@@ -12,7 +12,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/commands/ensemble_job.hpp"
 #include "cli/commands/own_step.hpp"
-#include "cli/reports/ensemble_reports.hpp"
+#include "cli/reports/ensemble_context.hpp"
 #include "parts.hpp"
 #include "systems.hpp"
 

@@ -1,4 +1,4 @@
-// What was typed, as plain text: options.cpp is the only file that knows how it is parsed.
+// What was typed, as plain text.
 #pragma once
 
 #include <cstddef>
@@ -36,10 +36,10 @@ struct Options {
   bool json = false, force = false, quiet = false, verbose = false, per_trajectory = false,
        soak = false, zeta = false, certify = false;
   std::string window;                                              ///< of fits
-  std::string on, direction, points, orbits;                       ///< of carom section
+  std::string on, direction, points, orbits;                       ///< of carom section and returns
   std::string splitting, population, repetitions, kick, lookback;  ///< of carom escape
   std::vector<std::string> files;                                  ///< of carom merge
-  std::string shard, block, checkpoint;                            ///< of carom escape
+  std::string shard, block, checkpoint;                            ///< of ensembles
   std::string output, threads, trajectory, resume, scale;
   std::string what;                ///< of carom plot
   std::string frames, fps, trail;  ///< of carom animate

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <exception>
@@ -15,18 +16,50 @@
 #include <limits>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "carom/base/error.hpp"
 #include "carom/base/stopwatch.hpp"
+#include "carom/engines/engine.hpp"
+#include "carom/engines/trajectories.hpp"
 #include "carom/results/ensemble_result.hpp"
+#include "carom/results/trajectory_ranges.hpp"
+#include "carom/starts/injection.hpp"
 #include "carom/starts/sampler.hpp"
 #include "carom/system/system.hpp"
-#include "engines/block_list.hpp"
+#include "engines/particle_hash.hpp"
 
 namespace carom::engines {
+
+/// Numbers blocks of at most `block` trajectories through several ranges, in order.
+class BlockList {
+ public:
+  BlockList(std::vector<TrajectoryRange> ranges, std::uint64_t block)
+      : ranges_(std::move(ranges)), block_(block) {
+    for (const TrajectoryRange& range : ranges_) {
+      first_.push_back(size_);
+      const std::uint64_t trajectories = range.last - range.first;
+      size_ += trajectories / block_ + (trajectories % block_ != 0);
+    }
+  }
+
+  std::uint64_t size() const { return size_; }
+  TrajectoryRange operator[](std::uint64_t number) const {
+    const auto after = std::upper_bound(first_.begin(), first_.end(), number);
+    const auto at = static_cast<std::size_t>(after - first_.begin()) - 1;
+    const std::uint64_t from = ranges_[at].first + (number - first_[at]) * block_;
+    return {from, std::min(ranges_[at].last, from + block_)};
+  }
+  std::uint64_t block() const { return block_; }
+
+ private:
+  std::vector<TrajectoryRange> ranges_;
+  std::vector<std::uint64_t> first_;  // number of each range's first block
+  std::uint64_t block_, size_ = 0;
+};
 
 /// Calls `action`, which must not throw, again and again, this many seconds apart, until it is
 /// stopped.
@@ -265,5 +298,76 @@ class EnsembleRun {
   std::exception_ptr error_;
   const std::uint64_t save_after_;  ///< trajectories; 0: checkpoints are some time apart
 };
+
+/// What every ensemble adds up, whatever else its analysis does. One thread's.
+template <class Result>
+class EnsembleListener : public Listener {
+ public:
+  using Thread = typename EnsembleRun<Result>::Thread;
+  /// The trajectories that come next.
+  virtual void claimed(TrajectoryRange) {}
+
+ protected:
+  EnsembleListener(const System& system, const Engine& engine, Thread& thread)
+      : system_(system), engine_(engine), thread_(thread), hash_(system) {}
+
+  /// The number of a particle, as records, reports and the digest have it.
+  std::uint64_t index_of(const Trajectory& t, std::size_t particle) const {
+    return particle_index(system_, t.number, particle);
+  }
+  /// A particle's end: `hash` goes into the digest.
+  static void add_end(EnsembleResult& sum, std::uint64_t index, Fate fate,
+                      const std::string& report, std::uint64_t hash) {
+    sum.digest += hash;
+    if (is_failure(fate)) keep_first(sum.reports, index, report);
+  }
+  /// A trajectory's.
+  static void add_end(EnsembleResult& sum, std::uint64_t& contacts, const TrajectoryEnd& end,
+                      const EnergyError& error) {
+    contacts += end.contacts;
+    sum.steps += end.steps;
+    sum.energy_error += error;
+  }
+  /// Trajectories that are counted, with the decisions since the last ones.
+  void add_done(EnsembleResult& sum, TrajectoryRange range) {
+    const DecisionCounts decisions = engine_.decisions();
+    sum.decisions += decisions - std::exchange(decisions_, decisions);
+    sum.done.add(range);
+  }
+
+  const System& system_;
+  const Engine& engine_;
+  Thread& thread_;
+  const ParticleHash hash_;
+
+ private:
+  DecisionCounts decisions_;  ///< that were added
+};
+
+/// Flies an ensemble whose trajectories are drawn block by block: on each thread an engine, and the
+/// listener that `listen(engine, thread)` makes. `starts`: the system that they are drawn from.
+template <class Result, class Listen>
+Result fly_blocks(const System& system, const System& starts,
+                  const EnsembleOptions<Result>& options, Result nothing, EngineOptions how,
+                  Listen listen) {
+  check_start(starts, options.interrupted);
+  const Sampler sampler(starts, options.interrupted);
+  const World world = make_world(system, options.decisions);  // threads share its table
+  how.lanes = options.lanes;
+  how.like = &world;
+  EnsembleRun<Result> run(system, options, std::move(nothing));
+  if (why_one_by_one(system, how).empty()) run.lanes = options.lanes;
+  return run.run([&](typename EnsembleRun<Result>::Thread& thread) {
+    const auto engine = make_engine(system, how);
+    auto listener = listen(*engine, thread);
+    const std::function<bool()> stopped = [&] { return thread.stopped(); };
+    DrawnStarts drawn(sampler, [&](TrajectoryRange& block) {
+      if (stopped() || !thread.claim(block)) return false;
+      listener.claimed(block);
+      return true;
+    });
+    engine->run(drawn, listener, stopped);
+  });
+}
 
 }  // namespace carom::engines

@@ -24,8 +24,7 @@ TEST(LostReports, AreThoseOfTheLowestIndices) {
   ASSERT_LT(one.counts.unresolved, 400u);
   std::vector<std::uint64_t> first;
   for (const TrajectoryRecord& r : records)
-    if (r.fate == Fate::unresolved && first.size() < EnsembleResult::most_reports)
-      first.push_back(r.index);
+    if (r.fate == Fate::unresolved && first.size() < most_reports) first.push_back(r.index);
   ASSERT_EQ(one.reports.size(), first.size());
   for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(one.reports[i].first, first[i]);
   for (const InstructionSet set : available_instruction_sets())

@@ -75,13 +75,19 @@ struct ExponentFields {
           later(field("regularity", "1", "Index into the attribute `names`", &R::regularity))});
 };
 
+/// Index and report of particles that were lost or unresolved.
+using Reports = std::vector<std::pair<std::uint64_t, std::string>>;
+/// So many of them are kept …
+inline constexpr std::size_t most_reports = 5;
+/// … those of the lowest indices, sorted. Their order of arrival does not matter.
+void keep_first(Reports& reports, std::uint64_t index, const std::string& report);
+
 /// Besides what a kind of ensemble adds up.
 struct EnsembleResult {
-  static constexpr std::size_t most_reports = 5;
   using RecordFields = Fields<TrajectoryRecord>;  ///< what its archive says of a trajectory
 
   std::uint64_t digest =
-      0;  ///< sum modulo 2^64 of a hash of each particle's end; see docs/guide/commands.md
+      0;  ///< sum modulo 2^64 of a hash of each particle's end; see docs/developer/ensembles.md
   TrajectoryRanges done;  ///< trajectories that are counted
   DecisionCounts decisions;
   StepCounts steps;          ///< under forces
@@ -91,8 +97,7 @@ struct EnsembleResult {
   int threads = 1;                      ///< of each process
   int ranks = 1;                        ///< processes that shared it
   std::optional<InstructionSet> lanes;  ///< that flew it; empty: the scalar engine did
-  std::vector<std::pair<std::uint64_t, std::string>>
-      reports;  ///< of the first few that failed: index and report
+  Reports reports;                      ///< of the first few that failed
 
  protected:
   /// False, and no change, where a trajectory is in both.

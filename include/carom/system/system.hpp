@@ -44,15 +44,15 @@ struct InitialCondition {
 /// A t_max that means: until the cap on hits, however long it takes.
 inline constexpr double no_last_time = 1e300;
 
-/// Times at which survival is reported, in increasing order.
+/// How long orbits are followed, how many, and what is kept of them.
 struct RunPlan {
   double t_max = 1000.0;
   std::uint64_t trajectories = 100000;
   std::uint64_t collisions = 0;  ///< cap on hits (0: none)
   std::uint64_t seed = 1;
-  double sample = 0.0;            ///< time between samples (0: none)
-  double trust_tolerance = 1e-3;  ///< of errors, relative to the table's size (trust/trust.hpp)
-  std::vector<double> times = {};
+  double sample = 0.0;             ///< time between samples (0: none)
+  double trust_tolerance = 1e-3;   ///< of errors, relative to the table's size (trust/trust.hpp)
+  std::vector<double> times = {};  ///< at which an ensemble is reported, in increasing order
   std::optional<std::pair<double, double>> window =
       {};                   ///< of fits: of a decay, and report times of D
   bool free_paths = false;  ///< are the lengths of flights counted (carom diffusion)?

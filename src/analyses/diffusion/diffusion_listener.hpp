@@ -14,7 +14,7 @@
 #include "carom/engines/engine.hpp"
 #include "carom/events/report.hpp"
 #include "engines/energy_watch.hpp"
-#include "engines/ensemble_listener.hpp"
+#include "engines/ensemble_run.hpp"
 
 namespace carom::analyses {
 

@@ -9,7 +9,7 @@
 #include "carom/engines/engine.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
-#include "cli/reports/ensemble_reports.hpp"
+#include "cli/reports/ensemble_context.hpp"
 #include "files/describe/json_out.hpp"
 
 namespace carom::cli {
@@ -241,9 +241,8 @@ Json result_json(const System& system, const DiffusionResult& result,
 std::string result_text(const System& system, const DiffusionResult& result,
                         const EnsembleContext& context) {
   const DiffusionSummary summary = summary_of(system, result);
-  std::string text =
-      doubts_of(system, result).folded_text() +
-      head_text(system, result.trajectories, system.run.times.back(), result.complete, context);
+  std::string text = doubts_of(system, result).folded_text() +
+                     head_text(system, result, system.run.times.back(), context);
   text += moments_table(summary.points, context);
   text += velocity_table(summary.points, context);
   text += fit_text(summary);

@@ -1,4 +1,4 @@
-#include "cli/reports/ensemble_reports.hpp"
+#include "cli/reports/ensemble_context.hpp"
 
 #include <fmt/format.h>
 
@@ -128,11 +128,12 @@ Json result_json(const System& system, const EscapeResult& result, const Ensembl
   json.set("decisions", decisions_json(result.decisions));
   if (const std::string none = why_one_by_one(system); !none.empty())
     json.set("lanes", Json()).set("no_lanes", none);
-  else if (result.effort.steps > 0)
-    json.set("lanes", Json::object()
-                          .set("hits", result.effort.hits)
-                          .set("left", result.effort.scalar)
-                          .set("busy", result.effort.busy()));
+  else
+    json.set("lanes", result.effort.steps == 0 ? Json()
+                                               : Json::object()
+                                                     .set("hits", result.effort.hits)
+                                                     .set("left", result.effort.scalar)
+                                                     .set("busy", result.effort.busy()));
   Json holes = Json::array();
   const std::vector<std::string> names = hole_names(*system.table);
   const std::vector<ExitPoint> by_hole = exits(counts);
@@ -156,9 +157,8 @@ Json result_json(const System& system, const EscapeResult& result, const Ensembl
 std::string result_text(const System& system, const EscapeResult& result,
                         const EnsembleContext& context) {
   const SurvivalCounts& counts = result.counts;
-  std::string text =
-      doubts_of(system, result).folded_text() +
-      head_text(system, counts.trajectories, system.run.t_max, result.complete, context);
+  std::string text = doubts_of(system, result).folded_text() +
+                     head_text(system, result, system.run.t_max, context);
   if (const std::string note = repeated_starts(system); !note.empty()) text += folded(note) + '\n';
   text += survival_table(counts, context);
   if (const std::string none = why_no_error(counts); !none.empty())
@@ -168,7 +168,7 @@ std::string result_text(const System& system, const EscapeResult& result,
   text += decay_text(decay_of(system, result));
   text += decay_by_hits_text(fit_decay_by_hits(counts));
   text += fates(system, counts);
-  return text + closing_text(system, result, counts, context, result.effort);
+  return text + closing_text(system, result, counts, context, {}, result.effort);
 }
 
 }  // namespace carom::cli

@@ -8,7 +8,7 @@
 #include "carom/analyses/lyapunov.hpp"
 #include "carom/engines/engine.hpp"
 #include "engines/energy_watch.hpp"
-#include "engines/ensemble_listener.hpp"
+#include "engines/ensemble_run.hpp"
 #include "engines/record_of.hpp"
 
 namespace carom::analyses {

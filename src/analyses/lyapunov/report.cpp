@@ -1,4 +1,4 @@
-#include "cli/reports/ensemble_reports.hpp"
+#include "cli/reports/ensemble_context.hpp"
 
 #include <fmt/format.h>
 
@@ -21,6 +21,10 @@ namespace carom::cli {
 using files::Json;
 
 namespace {
+
+EngineOptions asked_of_engines(const System& system) {
+  return {.deviations = {1.0}, .frame = system.run.spectrum};
+}
 
 // Do several particles make one orbit?
 bool together(const System& system) { return system.particles.size() > 1 && interacts(system); }
@@ -324,9 +328,7 @@ Json result_json(const System& system, const LyapunovResult& result,
   add_reports(json, result.reports);
   json.set("decisions", decisions_json(result.decisions));
   add_steps(json, system, result.steps);
-  if (const std::string none =
-          why_one_by_one(system, {.deviations = {1.0}, .frame = system.run.spectrum});
-      !none.empty())
+  if (const std::string none = why_one_by_one(system, asked_of_engines(system)); !none.empty())
     json.set("no_lanes", none);
   json.set("window", Json::object().set("from", sums.window().from).set("to", sums.window().to));
   add_starts(json, system, result, e);
@@ -381,10 +383,9 @@ std::string result_text(const System& system, const LyapunovResult& result,
                         const EnsembleContext& context) {
   const GrowthSums& sums = result.growth;
   const LyapunovEstimate e = estimate_of(system, result);
-  std::string text =
-      doubts_of(system, result).folded_text() +
-      head_text(system, result.trajectories, sums.window().to, result.complete, context) +
-      drawn_text(system, result);
+  std::string text = doubts_of(system, result).folded_text() +
+                     head_text(system, result, sums.window().to, context) +
+                     drawn_text(system, result);
   if (const std::string reason = no_exponent(system, result, e); !reason.empty()) {
     text += folded("\nThere is no exponent: " + reason + ".") + '\n';
   } else if (of_repeller(result)) {
@@ -400,7 +401,7 @@ std::string result_text(const System& system, const LyapunovResult& result,
   for (const std::string& note : notes_of(system, result, e)) text += folded(note) + '\n';
   if (const std::string ends = fates_text(result); !ends.empty())
     text += "\nof the particles: " + ends + "\n";
-  return text + closing_text(system, result, result, context);
+  return text + closing_text(system, result, result, context, asked_of_engines(system));
 }
 
 }  // namespace carom::cli

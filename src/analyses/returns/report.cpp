@@ -12,7 +12,6 @@
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/ensemble_context.hpp"
-#include "cli/reports/ensemble_reports.hpp"
 #include "files/describe/json_out.hpp"
 
 namespace carom::cli {
@@ -90,9 +89,8 @@ std::string result_text(const System& system, const ReturnsResult& result,
                         const EnsembleContext& context) {
   const Returns returns = returns_of(result.sums, system.run.t_max / 2);
   const std::optional<ExpectedReturns> expected = expected_returns(system);
-  std::string text =
-      doubts_of(system, result).folded_text() +
-      head_text(system, result.trajectories, system.run.t_max, result.complete, context);
+  std::string text = doubts_of(system, result).folded_text() +
+                     head_text(system, result, system.run.t_max, context);
   if (const std::string note = repeated_starts(system); !note.empty()) text += folded(note) + '\n';
   if (starts_of_the_map(system))
     text += folded(fmt::format("starts: {}", drawn_in_place(system))) + '\n';

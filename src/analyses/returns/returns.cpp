@@ -8,7 +8,7 @@
 #include "carom/starts/sampler.hpp"
 #include "carom/starts/start_measure.hpp"
 #include "engines/energy_watch.hpp"
-#include "engines/ensemble_listener.hpp"
+#include "engines/ensemble_run.hpp"
 #include "results/distribution.hpp"
 
 namespace carom {

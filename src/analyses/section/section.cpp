@@ -7,7 +7,7 @@
 #include "carom/base/stopwatch.hpp"
 #include "carom/engines/engine.hpp"
 #include "carom/engines/trajectories.hpp"
-#include "engines/first_reports.hpp"
+#include "carom/results/ensemble_result.hpp"
 #include "engines/ordered_output.hpp"
 #include "engines/parallel_blocks.hpp"
 
@@ -30,7 +30,7 @@ void add(SectionResult& sum, const SectionResult& r) {
   sum.digest += r.digest;
   sum.steps += r.steps;
   sum.energy_error += r.energy_error;
-  for (const auto& [index, report] : r.reports) engines::keep_first(sum.reports, index, report);
+  for (const auto& [index, report] : r.reports) keep_first(sum.reports, index, report);
 }
 
 std::uint64_t hash_of(std::uint64_t so_far, const SectionPoint& p) {
@@ -131,7 +131,7 @@ class Follower : public Listener {
       r.collisions += particle.hits;
       r.count(particle.fate);
       if (is_failure(particle.fate))
-        engines::keep_first(r.reports, orbit * particles + p, particle.report);
+        keep_first(r.reports, orbit * particles + p, particle.report);
       else
         r.energy_error += particle.energy.error_at_end(particle.energy.change, 0.0);
     }

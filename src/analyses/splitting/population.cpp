@@ -8,13 +8,13 @@
 #include "carom/base/digest.hpp"
 #include "carom/base/elementary.hpp"
 #include "carom/base/random.hpp"
+#include "carom/results/ensemble_result.hpp"
 
 namespace carom::analyses {
 
 namespace {
 
 constexpr double no_end = std::numeric_limits<double>::infinity();
-constexpr std::size_t most_reports = 5;
 
 // Streams of random numbers: one a member and stage; the comb takes the last one.
 constexpr std::uint64_t comb_stream = std::numeric_limits<std::uint64_t>::max();

@@ -120,10 +120,12 @@ EnsembleJob<Result> job_of(const Options& options, Sharing sharing) {
   EnsembleJob<Result> job;
   job.output = options.output;
   job.shard = shard_of(options);
+  // First, for a step may be chosen by minutes of trial runs.
+  if (!job.output.empty() && sharing != Sharing::other) {
+    job.lock = lock_output(options, job.output);
+    refuse_existing(job.output, options.force);
+  }
   job.loaded = load_ensemble(options);
-  if (job.output.empty() || sharing == Sharing::other) return job;
-  job.lock = lock_output(options, job.output);
-  refuse_existing(job.output, options.force);
   return job;
 }
 #define CAROM_MAKE(Result) template EnsembleJob<Result> job_of(const Options&, Sharing);

@@ -15,7 +15,7 @@
 #include "cli/commands/own_step.hpp"
 #include "cli/common.hpp"
 #include "cli/ranks.hpp"
-#include "cli/reports/ensemble_reports.hpp"
+#include "cli/reports/ensemble_context.hpp"
 #include "files/progress.hpp"
 
 namespace carom::cli {

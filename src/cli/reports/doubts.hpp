@@ -10,12 +10,11 @@
 #include "carom/analyses/run.hpp"
 #include "carom/analyses/section.hpp"
 #include "carom/events/step_counts.hpp"
+#include "carom/results/ensemble_result.hpp"
 #include "carom/system/system.hpp"
 #include "files/json.hpp"
 
 namespace carom::cli {
-
-using Reports = std::vector<std::pair<std::uint64_t, std::string>>;
 
 /// Trajectories that failed, and energies that changed by more than integrator.energy_tolerance; a
 /// line each.

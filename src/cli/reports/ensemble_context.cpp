@@ -36,16 +36,15 @@ std::string work_text(const System& system, const EndCounts& ends, const Ensembl
 
 }  // namespace
 
-std::string head_text(const System& system, std::uint64_t trajectories, double last_time,
-                      bool complete, const EnsembleContext& context) {
-  // Particles were counted.
-  const std::size_t each = system.injections.empty() ? system.particles.size() : 1;
+std::string head_text(const System& system, const EnsembleResult& result, double last_time,
+                      const EnsembleContext& context) {
+  const std::size_t each = system.particles.size();
   return heading(system) +
          folded(fmt::format(
-             "{}{} {}, seed {}{}{}", counted(trajectories / each, "trajectory"),
+             "{}{} {}, seed {}{}{}", counted(result.done.size(), "trajectory"),
              each > 1 ? fmt::format(" of {} particles", each) : "", until(last_time),
              system.run.seed, context.shard.of > 1 ? ", part " + text_of(context.shard) : "",
-             complete ? "" : "  (" + context.status + ": those that were finished)")) +
+             result.complete ? "" : "  (" + context.status + ": those that were finished)")) +
          '\n';
 }
 
@@ -55,13 +54,15 @@ std::string rows_text(std::size_t all, const EnsembleContext& context) {
 }
 
 std::string closing_text(const System& system, const EnsembleResult& result, const EndCounts& ends,
-                         const EnsembleContext& context, const LaneEffort& effort) {
+                         const EnsembleContext& context, const EngineOptions& how,
+                         const LaneEffort& effort) {
   std::string text;
   if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
   text += "\n" + work_text(system, ends, result);
   if (context.verbose)
-    text += fmt::format("{}\n{}digest {:016x}\n", decisions_text(result.decisions),
-                        lanes_text(why_one_by_one(system), result.lanes, effort), result.digest);
+    text +=
+        fmt::format("{}\n{}digest {:016x}\n", decisions_text(result.decisions),
+                    lanes_text(why_one_by_one(system, how), result.lanes, effort), result.digest);
   text += grounds_text(system, result.steps, true);
   if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
   return text;

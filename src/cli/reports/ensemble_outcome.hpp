@@ -8,7 +8,7 @@
 
 #include "carom/files/ensembles.hpp"
 #include "cli/outcome.hpp"
-#include "cli/reports/ensemble_reports.hpp"
+#include "cli/reports/ensemble_context.hpp"
 
 namespace carom::cli {
 

@@ -9,7 +9,7 @@
 #include "analyses/systems.hpp"
 #include "carom/analyses/escape.hpp"
 #include "carom/base/error.hpp"
-#include "engines/block_list.hpp"
+#include "engines/ensemble_run.hpp"
 
 namespace carom {
 
