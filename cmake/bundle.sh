@@ -103,6 +103,7 @@ LAUNCHER
   mkdir "$folder/man"
   cp "$build"/man/*.1 "$folder/man"
   [[ ! -d $source/build/docs/html ]] || cp -r "$source/build/docs/html" "$folder/docs"
+  [[ ! -e $folder/docs/carom.html ]] || ln -f "$folder/share/carom/carom.html" "$folder/docs/carom.html"  # once in the tarball
   licences "$folder/lib" libhdf5_serial.a libgsl.a libsundials_cvode.a libz.a libaec.a  # archives.cmake
   tar -C "$work" --owner=0 --group=0 --sort=name -cf - "$name" | gzip -9n >"$target/$name.tar.gz"
 }
