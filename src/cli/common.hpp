@@ -36,9 +36,6 @@ InstructionSet instruction_set_of(const Options&);
 void choose_engine(const std::string& engine, System&);
 /// What moves the particles: "events" (exact flights), "steps" (integration) or "auto" (both).
 std::string engine_of(const System&);
-/// What becomes of trajectories that failed, as a note to their number.
-inline constexpr const char* why_unresolved = "integration could not follow: see the messages";
-inline constexpr const char* why_lost = "an internal error: please report it";
 /// A doubt about an ensemble's errors: "" unless its trajectories repeat the starts that are
 /// listed.
 std::string repeated_starts(const System&);

@@ -55,10 +55,10 @@ int (*command_of(const std::string& name))(const Options&) {
       {"escape", escape}, {"run", run},           {"section", section}, {"orbit", orbit},
       {"relax", relax},   {"compare", compare},   {"schemes", schemes}, {"merge", merge},
       {"table", table},   {"validate", validate}, {"plot", plot},       {"animate", animate},
-      {"page", page}};
+      {"page", page},     {"systems", systems}};
   for (const auto& [known, command] : commands)
     if (name == known) return command;
-  return carom::is_ensemble(name) ? ensemble : systems;
+  return ensemble;
 }
 
 int call(const Options& options) {

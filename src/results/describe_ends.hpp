@@ -6,7 +6,7 @@
 //
 //   group(path, text), group_if(there, path, text)  what follows is in it; the latter: is it there?
 //   number(label, value), number_if(there, …)       in archives and JSON
-//   numbers(s), numbers_if(there, s)                the fields of a struct
+//   numbers_if(there, s)                            the fields of a struct
 //   kept(label, value)                              in archives alone, as all columns below
 //   kept_column(label, values, count)               this many numbers
 //   kept_each(label, count, get)                    get(i) is a reference to the i-th
@@ -15,6 +15,7 @@
 //   computed(label, make)                           a computed number or column, in archives
 //   alone
 //
+// and what a few results need besides (fates, bins, columns with names, what is expected).
 // `there` is what the system says; readers ask the archive instead, and never call `make`. So the
 // system may be an empty one where an archive is read.
 #pragma once

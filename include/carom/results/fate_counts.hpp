@@ -49,6 +49,11 @@ struct EndCounts : FateCounts {
   std::uint64_t collisions = 0;
   std::uint64_t contacts = 0;  ///< of hard discs, each pair once
 
+  void add_end(Fate fate, std::uint64_t hits) {
+    ++trajectories;
+    count(fate);
+    collisions += hits;
+  }
   void add_ends(const EndCounts& other) {
     add_fates(other);
     trajectories += other.trajectories;

@@ -122,10 +122,8 @@ class DiffusionListener : public engines::EnsembleListener<DiffusionResult> {
       report =
           report_of({}, end.state, fate, "it is so far away that |r - r(0)|^4 is not a number");
     }
-    ++sum.trajectories;
-    sum.count(fate);
+    sum.add_end(fate, end.hits);
     for (std::size_t k = 0; k < samples; ++k) sum.sums.add(trajectory, k, all[k]);
-    sum.collisions += end.hits;
     add_end(sum, index, fate, report,
             hash_(index, fate, time, end.hits, end.last_wall, end.state,
                   std::span(all.squares).first(samples)));

@@ -59,17 +59,17 @@ Json decay_json(const DecayFit& fit) {
   return json.set("alternatives", std::move(others));
 }
 
-std::string decay_text(const DecayFit& fit, const char* variable) {
+std::string decay_text(const DecayFit& fit) {
   if (fit.decays.empty())
     return "\n" + folded(fmt::format("No decay was fitted: {}.", fit.why_none)) + "\n";
-  std::string text = fmt::format("\nDecay from {} = {:.4g} to {:.4g}, {}\n", variable, fit.from,
-                                 fit.to, counted(fit.escapes, "escape"));
+  std::string text = fmt::format("\nDecay from t = {:.4g} to {:.4g}, {}\n", fit.from, fit.to,
+                                 counted(fit.escapes, "escape"));
   const std::size_t shown = fit.decided ? 1 : 2;
   if (!fit.decided) text += not_told_apart;
   for (std::size_t i = 0; i < shown; ++i) {
     const Decay& decay = fit.decays[i];
     text += fmt::format("  {}\n{}\n    p-value {:.2g}{}\n",
-                        formula_of(decay.law, decay.with_plateau, variable), numbers_of(decay),
+                        formula_of(decay.law, decay.with_plateau, "t"), numbers_of(decay),
                         decay.p_value,
                         decay.p_value < hardly ? ": the law does not describe this window" : "");
   }

@@ -9,8 +9,7 @@
 namespace carom::cli {
 
 files::Json decay_json(const DecayFit&);
-/// `variable`: "t", or "n" of hits.
-std::string decay_text(const DecayFit&, const char* variable = "t");
+std::string decay_text(const DecayFit&);
 /// Its likeliest law by number of hits n in three lines; nothing where there is none.
 std::string decay_by_hits_text(const DecayFit&);
 

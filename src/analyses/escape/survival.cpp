@@ -96,10 +96,8 @@ void SurvivalCounts::add(Fate fate, double time, std::uint64_t hits, int hole,
                          std::uint64_t trajectory) {
   Replicate* const part = parts.empty() ? nullptr : &parts[trajectory % replicates];
   const std::uint64_t before = part ? followed() : 0;
-  ++trajectories;
-  collisions += hits;
+  add_end(fate, hits);
   most_hits = std::max(most_hits, hits);
-  count(fate);
   if (fate == Fate::capped || fate == Fate::survived)
     fewest_hits_of_survivor = std::min(fewest_hits_of_survivor, hits);
   if (part) part->followed += followed() - before;

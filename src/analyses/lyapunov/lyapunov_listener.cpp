@@ -156,9 +156,7 @@ void LyapunovListener::end(const Trajectory& t, const TrajectoryEnd& end) {
           const ParticleEnd& particle = end.particles[p];
           const std::uint64_t index = index_of(t, p);
           hits += particle.hits;
-          ++sum.trajectories;
-          sum.count(particle.fate);
-          sum.collisions += particle.hits;
+          sum.add_end(particle.fate, particle.hits);
           std::uint64_t hash = hash_(index, particle.fate, particle.time, particle.hits,
                                      particle.last_wall, particle.state);
           if (together_ ? all && p == 0 : stays(particle)) {

@@ -74,9 +74,7 @@ class ReturnsListener : public engines::EnsembleListener<ReturnsResult> {
     thread_.deliver(range, [&](ReturnsResult& sum) {
       for (std::size_t p = 0; p < end.particles.size(); ++p) {
         const ParticleEnd& particle = end.particles[p];
-        ++sum.trajectories;
-        sum.count(particle.fate);
-        sum.collisions += particle.hits;
+        sum.add_end(particle.fate, particle.hits);
         hits += particle.hits;
         // One that ends early was not seen long enough.
         if (particle.fate == Fate::survived || particle.fate == Fate::pinned)

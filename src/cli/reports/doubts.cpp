@@ -115,8 +115,8 @@ std::string fates_text(const FateCounts& counts) {
   add(counts.capped, "ended by the cap on hits");
   add(counts.unbounded, "escaped to infinity");
   add(counts.singular, "singular");
-  add(counts.unresolved, fmt::format("unresolved: {}", why_unresolved));
-  add(counts.lost, fmt::format("lost: {}", why_lost));
+  add(counts.unresolved, "unresolved: integration could not follow: see the messages");
+  add(counts.lost, "lost: an internal error: please report it");
   return text;
 }
 
