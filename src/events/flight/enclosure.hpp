@@ -16,7 +16,8 @@ namespace carom::events {
 class Enclosure {
  public:
   static constexpr int undecided = -1;
-  static constexpr int most = 32;  ///< walls
+  static constexpr int most = 32;     ///< walls
+  static constexpr int most_met = 8;  ///< walls that meets_all
 
   /// Adds the wall that starts at `from`; a bent one has no tangent.
   void add(geometry::Vector from, geometry::Vector tangent, double length, bool bent) {
@@ -47,15 +48,31 @@ class Enclosure {
     std::uint64_t joints = 0;
     bool decided = false;
   };
+  /// Where a line meets those of two walls that are segments: time / unit after its start.
+  struct Meeting {
+    base::Pair time, unit, duration;
+  };
+  /// Are all walls segments, and so few that to meet all of them takes less long than to wait until
+  /// it is known which is the exit?
+  bool meets_all() const { return bent_ == 0 && size_ <= most_met && carom::detail::fuses; }
+  /// `met`: filled in with the meetings with all walls, if not null.
   [[gnu::always_inline]] Right right_of_line(geometry::Vector origin, geometry::Vector v,
-                                             double bound) const {
+                                             double bound, Meeting* met = nullptr) const {
     const Vectors from{base::both(origin.x), base::both(origin.y)},
         velocity{base::both(v.x), base::both(v.y)};
     base::Pair least = base::both(HUGE_VAL);
     std::uint64_t right = 0;
     int shift = 0;
     for (const Two& w : walls_) {
-      const base::Pair side = cross(velocity, w.from - from);
+      const Vectors way = w.from - from;
+      if (met != nullptr) {
+        if (!carom::detail::fuses) __builtin_unreachable();  // meets_all() was false
+        met->time = geometry::fused_cross(w.tangent, way);
+        met->unit = geometry::fused_cross(w.tangent, velocity);
+        met->duration = met->time / met->unit;
+        ++met;
+      }
+      const base::Pair side = cross(velocity, way);
       least = base::smaller(base::magnitude(side), least);
       right |= static_cast<std::uint64_t>(base::signs(side)) << shift;
       shift += 2;
@@ -65,9 +82,9 @@ class Enclosure {
   }
   /// A line leaves a convex loop between a joint on its right and the next one on its left; size():
   /// all lie on one side.
-  [[gnu::always_inline]] int exit_of_line(geometry::Vector origin, geometry::Vector v,
-                                          double bound) const {
-    const auto [right, decided] = right_of_line(origin, v, bound);
+  [[gnu::always_inline]] int exit_of_line(geometry::Vector origin, geometry::Vector v, double bound,
+                                          Meeting* met = nullptr) const {
+    const auto [right, decided] = right_of_line(origin, v, bound, met);
     if (!decided) return undecided;
     return std::countr_zero((right & ~(right >> 1 | right << (size_ - 1))) | std::uint64_t{1}
                                                                                  << size_);

@@ -33,6 +33,10 @@ class FreeFlights {
   /// The same for callers that it is not inlined into.
   bool apply_apart(int index, Time now, Observer& observer);
 
+  /// Applies hits of a body that is alone as long as there is nothing else to attend to, at most so
+  /// many, with its flight in local variables. Returns how many; what it leaves is for `apply`.
+  std::uint64_t apply_hits(int index, double t_end, std::uint64_t most, Observer& observer);
+
   /// Throws std::invalid_argument unless the velocity has the length of the particle's speed.
   void check_speed(const Body& b) const;
   /// Starts a flight from the body's state. Throws std::invalid_argument if its velocity leads out
@@ -98,6 +102,12 @@ class FreeFlights {
                              const PieceTable::Landing& landing, geometry::Vector mirrored);
   void add_corners(const PieceTable& pieces);
   static void set_speed(Body& b, double speed);
+  static geometry::Vector mirrored(const Body& b, geometry::Vector before,
+                                   const geometry::PreparedCurve::Arrival& at) {
+    return geometry::reflected(before, at.normal, at.factor, step_to_energy_shell(before, b.shell));
+  }
+  static void put_on_wall(Body& b, int wall, Time now, const geometry::PreparedCurve::Arrival& at,
+                          geometry::Vector velocity);
   static void put_on_edge(Body& b, Time now, const PieceTable::Landing& landing);
   /// At a wall of these pieces that the body does not pass. `first`: the number of their first wall
   /// in the table, 0 outside of regions.
@@ -108,6 +118,7 @@ class FreeFlights {
 
   HitFinder finder_;
   bool over_edges_;
+  bool plain_;  ///< all walls are mirrors without holes, in one cell, and no forces act
   Bodies& bodies_;
   const ForceRegions& regions_;
   struct Scattering {
@@ -172,23 +183,34 @@ class FreeFlights {
   bodies_.schedule(index, when, kind);
 }
 
+[[gnu::always_inline]] inline void FreeFlights::put_on_wall(
+    Body& b, int wall, Time now, const geometry::PreparedCurve::Arrival& at,
+    geometry::Vector velocity) {
+  b.state.wall = wall;
+  b.state.u = at.u;
+  b.state.position = at.point;
+  b.state.velocity = velocity;
+  b.state.time.high = now.high;
+  b.state.time.low = now.low;
+}
+
 [[gnu::always_inline]] inline bool FreeFlights::reflect(int index, Body& b, Time now,
                                                         Observer& observer,
                                                         const PieceTable& pieces, int first,
                                                         const PieceTable::Landing& landing) {
   const geometry::Vector before = landing.velocity;
   const geometry::Vector normal = landing.at.normal;
-  const double step = step_to_energy_shell(before, b.shell);
   geometry::Vector after;
   int reflections = 1;
   if (b.ahead.kind == Ahead::Kind::joint) {
     reflections = corners_[static_cast<std::size_t>(first + landing.wall)];
     if (reflections == 0) return bodies_.end(index, Fate::singular, now, observer), true;
     const int previous = pieces.table.walls[static_cast<std::size_t>(landing.wall)].previous;
+    const double step = step_to_energy_shell(before, b.shell);
     after = (1.0 + step) * motion::reflected_at_corner(before, pieces.normal_at_end(previous),
                                                        normal, reflections);
   } else {
-    after = geometry::reflected(before, normal, landing.at.factor, step);
+    after = mirrored(b, before, landing.at);
   }
   if (scattering_.any) [[unlikely]] {
     const PieceTable::Landing there = landing;  // a copy, or the landing would live in memory
@@ -202,14 +224,9 @@ class FreeFlights {
   }
   if (inward != Sign::positive) return bodies_.end(index, Fate::singular, now, observer), true;
 
-  b.state.wall = first + landing.wall;
-  b.state.u = landing.at.u;
-  b.state.position = landing.at.point;
-  b.state.velocity = after;
+  put_on_wall(b, first + landing.wall, now, landing.at, after);
   b.state.cell.first += landing.cell.first;
   b.state.cell.second += landing.cell.second;
-  b.state.time.high = now.high;
-  b.state.time.low = now.low;
   pieces.begin_on_wall(b.flight, landing.wall, *landing.curve, landing.at.u, landing.at.point,
                        after);
   const HitEvent& hit = bodies_.count_hit(index, b, b.state, before, b.ahead.duration, reflections);
@@ -275,6 +292,49 @@ class FreeFlights {
     return false;
   }
   return meet(index, b, now, observer, pieces(), 0, landing);
+}
+
+[[gnu::noinline]] inline std::uint64_t FreeFlights::apply_hits(int index, double t_end,
+                                                               std::uint64_t most,
+                                                               Observer& observer) {
+  std::uint64_t hits = 0;
+  if (!plain_) return hits;
+  Body& b = bodies_[index];
+  while (hits < most && bodies_.what(index) == EventKind::hit && carom::detail::fuses) {
+    const Time now = bodies_.when(index);
+    if (!(now.high < t_end) && now > Time(t_end)) break;
+    const int wall = b.ahead.piece;
+    const double duration = b.ahead.duration;
+    const geometry::PreparedCurve& curve = pieces().curve(wall);
+    geometry::Vector before;
+    geometry::PreparedCurve::Arrival at;
+    curve.arrive(PieceTable::end_of(b.flight, b.ahead, b.flight.start, before), before, at,
+                 b.ahead.u);
+    const geometry::Vector after = mirrored(b, before, at);
+    if (pieces().inward_off_joints(curve, after, at.normal) != Sign::positive ||
+        bodies_.next_reaches_limit(b))
+      break;
+    ++counts_.filter;
+    put_on_wall(b, wall, now, at, after);
+    PieceTable::begin_off_joints(b.flight, wall, curve, at.u, at.point, after);
+    const HitEvent& hit = bodies_.count_hit(index, b, b.state, before, duration, 1);
+    // Once more in local variables: what was just stored need not be waited for.
+    Flight flight;
+    flight.omega = b.flight.omega;
+    flight.square_speed = b.flight.square_speed;
+    PieceTable::begin_off_joints(flight, wall, curve, at.u, at.point, after);
+    Ahead ahead;
+    if (finder_.next_in_convex(flight, ahead, counts_)) {
+      b.ahead = ahead;
+      bodies_.schedule(index, now + ahead.duration, EventKind::hit);
+    } else {
+      finder_.next_in_any(b.flight, b.ahead, counts_);
+      schedule(index, b);
+    }
+    observer.hit(hit);
+    ++hits;
+  }
+  return hits;
 }
 
 }  // namespace carom::events
