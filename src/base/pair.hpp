@@ -5,8 +5,6 @@
 #include <emmintrin.h>
 #endif
 
-#include "carom/base/fused_product.hpp"
-
 namespace carom::base {
 
 /// Arithmetic of a Pair is that of its two doubles, each rounded by itself.
@@ -36,20 +34,3 @@ inline unsigned signs(Pair x) {
 inline unsigned signs(PairMask m) { return signs(reinterpret_cast<Pair>(m)); }
 
 }  // namespace carom::base
-
-namespace carom {
-
-template <>
-struct FusedProduct<base::Pair> {
-  [[gnu::always_inline]] static base::Pair of(base::Pair a, base::Pair b, base::Pair c) {
-#if defined(__x86_64__) && !defined(__FMA__)
-    if (__builtin_expect(detail::fuses, 1)) {
-      asm("vfmadd231pd %2, %1, %0" : "+x"(c) : "x"(a), "xm"(b));
-      return c;
-    }
-#endif
-    return base::Pair{fused_product(a[0], b[0], c[0]), fused_product(a[1], b[1], c[1])};
-  }
-};
-
-}  // namespace carom

@@ -29,19 +29,19 @@ inline constexpr double least_square = 0x1p-900;
                                                                 Ahead& ahead) const {
   using geometry::Vector;
   const Vector v = f.velocity, origin = f.start;
+  // Half the error of side_of_flight, for the distance of the farthest joint.
+  const double bound =
+      t_.options.filter_inflation * 1.005 * norm_1(v) * (f.start_error + t_.enclosure_rounding);
+  if (t_.enclosure.meets_all()) {
+    Enclosure::Meeting met[Enclosure::most_met / 2];
+    const int wall = t_.enclosure.exit_of_line<true>(origin, v, bound, met);
+    if (wall < 0 || wall == t_.enclosure.size()) return false;
+    const unsigned number = static_cast<unsigned>(wall), of = number % 2;
+    const Enclosure::Meeting& m = met[number / 2];
+    return put(wall, m.duration[of], m.unit[of] / m.time[of], ahead);
+  }
   int wall = 0;
   if (t_.enclosure.size() > 1) {
-    // Half the error of side_of_flight, for the distance of the farthest joint.
-    const double bound =
-        t_.options.filter_inflation * 1.005 * norm_1(v) * (f.start_error + t_.enclosure_rounding);
-    if (t_.enclosure.meets_all()) {
-      Enclosure::Meeting met[Enclosure::most_met / 2];
-      wall = t_.enclosure.exit_of_line(origin, v, bound, met);
-      if (wall < 0 || wall == t_.enclosure.size()) return false;
-      const unsigned number = static_cast<unsigned>(wall), of = number % 2;
-      const Enclosure::Meeting& m = met[number / 2];
-      return put(wall, m.duration[of], m.unit[of] / m.time[of], ahead);
-    }
     wall = t_.enclosure.exit_of_line(origin, v, bound);
     if (wall < 0) return false;
     if (wall == t_.enclosure.size()) {  // all joints on one side: through the arc that it stands on

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/pair.hpp"
+#include "base/fused_pair.hpp"
 #include "carom/geometry/filter.hpp"
 
 namespace carom::events {
@@ -36,6 +36,7 @@ class Enclosure {
     if (bent) bent_ |= std::uint64_t{1} << i;
     ++size_;
     all_ = (std::uint64_t{1} << size_) - 1;
+    few_segments_ = bent_ == 0 && 1 < size_ && size_ <= most_met;
   }
   /// Bounds the l1 distance between two points of the loop.
   void set_diameter(double d) { diameter_ = d; }
@@ -54,8 +55,9 @@ class Enclosure {
   };
   /// Are all walls segments, and so few that to meet all of them takes less long than to wait until
   /// it is known which is the exit?
-  bool meets_all() const { return bent_ == 0 && size_ <= most_met && carom::detail::fuses; }
-  /// `met`: filled in with the meetings with all walls, if not null.
+  bool meets_all() const { return few_segments_ && base::fuses(); }
+  /// `meets`: `met` is filled in with the meetings with all walls.
+  template <bool meets = false>
   [[gnu::always_inline]] Right right_of_line(geometry::Vector origin, geometry::Vector v,
                                              double bound, Meeting* met = nullptr) const {
     const Vectors from{base::both(origin.x), base::both(origin.y)},
@@ -65,8 +67,8 @@ class Enclosure {
     int shift = 0;
     for (const Two& w : walls_) {
       const Vectors way = w.from - from;
-      if (met != nullptr) {
-        if (!carom::detail::fuses) __builtin_unreachable();  // meets_all() was false
+      if constexpr (meets) {
+        base::fuses_surely();
         met->time = geometry::fused_cross(w.tangent, way);
         met->unit = geometry::fused_cross(w.tangent, velocity);
         met->duration = met->time / met->unit;
@@ -82,9 +84,10 @@ class Enclosure {
   }
   /// A line leaves a convex loop between a joint on its right and the next one on its left; size():
   /// all lie on one side.
+  template <bool meets = false>
   [[gnu::always_inline]] int exit_of_line(geometry::Vector origin, geometry::Vector v, double bound,
                                           Meeting* met = nullptr) const {
-    const auto [right, decided] = right_of_line(origin, v, bound, met);
+    const auto [right, decided] = right_of_line<meets>(origin, v, bound, met);
     if (!decided) return undecided;
     return std::countr_zero((right & ~(right >> 1 | right << (size_ - 1))) | std::uint64_t{1}
                                                                                  << size_);
@@ -163,6 +166,7 @@ class Enclosure {
   std::vector<Two> walls_;
   std::uint64_t bent_ = 0, all_ = 0;
   int size_ = 0;
+  bool few_segments_ = false;
   double diameter_ = 0.0;
 };
 

@@ -84,8 +84,8 @@ struct PieceTable {
   Sign inward(int wall, const geometry::PreparedCurve& curve, double u, geometry::Vector v,
               geometry::Vector normal, DecisionCounts& counts) const;
   /// The same off the joints, as far as doubles tell.
-  [[gnu::always_inline]] Sign inward_off_joints(const geometry::PreparedCurve& curve, geometry::Vector v,
-                         geometry::Vector normal) const {
+  [[gnu::always_inline]] Sign inward_off_joints(const geometry::PreparedCurve& curve,
+                                                geometry::Vector v, geometry::Vector normal) const {
     const double bound =
         options.filter_inflation * curve.normal_bound * (std::fabs(v.x) + std::fabs(v.y));
     return sign_within(dot(normal, v), bound);
