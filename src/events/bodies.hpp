@@ -74,6 +74,7 @@ class Bodies {
   /// Most hits a body may make.
   void limit_hits(std::uint64_t most) { limit_ = most; }
   bool reaches_limit(const Body& b) const { return b.hits >= limit_; }
+  bool next_reaches_limit(const Body& b) const { return b.hits + 1 >= limit_; }
   /// Counts a hit after which the body has that state, on the wall. `flight_time`: since its last
   /// event.
   const HitEvent& count_hit(int i, Body& b, const State& after, const geometry::Vector& before,

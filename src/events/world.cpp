@@ -140,6 +140,7 @@ std::uint64_t World::run_until(double t_end, Observer& observer,
   const bool asks = static_cast<bool>(enough);
   const bool works = regions.any() || discs;  // an event may be interrupted
   const bool attended = asks || works || samples.any();
+  const bool alone = !attended && !watch.active() && bodies.size() == 1;
   // Asking may cost more than a flight, and less than a step: once in 16 or 256 events.
   const std::uint64_t between_questions = works ? 15 : 255;
   do {
@@ -153,6 +154,12 @@ std::uint64_t World::run_until(double t_end, Observer& observer,
         if (interrupt.stopped()) return events;
         if (samples.any()) samples.emit(when, false, observer);
         if (interrupt.stopped()) return events;
+      }
+      if (alone) {
+        const std::uint64_t unasked = between_questions + 1 - (events & between_questions);
+        const std::uint64_t hits = flights.apply_hits(index, t_end, unasked, observer);
+        events += hits;
+        if (hits > 0) continue;
       }
       apply(index, when, observer);
       ++events;

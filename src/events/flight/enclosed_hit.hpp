@@ -29,11 +29,19 @@ inline constexpr double least_square = 0x1p-900;
                                                                 Ahead& ahead) const {
   using geometry::Vector;
   const Vector v = f.velocity, origin = f.start;
+  // Half the error of side_of_flight, for the distance of the farthest joint.
+  const double bound =
+      t_.options.filter_inflation * 1.005 * norm_1(v) * (f.start_error + t_.enclosure_rounding);
+  if (t_.enclosure.meets_all()) {
+    Enclosure::Meeting met[Enclosure::most_met / 2];
+    const int wall = t_.enclosure.exit_of_line<true>(origin, v, bound, met);
+    if (wall < 0 || wall == t_.enclosure.size()) return false;
+    const unsigned number = static_cast<unsigned>(wall), of = number % 2;
+    const Enclosure::Meeting& m = met[number / 2];
+    return put(wall, m.duration[of], m.unit[of] / m.time[of], ahead);
+  }
   int wall = 0;
   if (t_.enclosure.size() > 1) {
-    // Half the error of side_of_flight, for the distance of the farthest joint.
-    const double bound =
-        t_.options.filter_inflation * 1.005 * norm_1(v) * (f.start_error + t_.enclosure_rounding);
     wall = t_.enclosure.exit_of_line(origin, v, bound);
     if (wall < 0) return false;
     if (wall == t_.enclosure.size()) {  // all joints on one side: through the arc that it stands on
@@ -42,6 +50,18 @@ inline constexpr double least_square = 0x1p-900;
     }
   }
   return line_to(f, wall, ahead);
+}
+
+/// A hit on a wall. False: too short a way for doubles.
+[[gnu::always_inline]] inline bool HitFinder::put(int wall, double duration, double kappa,
+                                                  Ahead& ahead) {
+  if (!(duration > 0.0 && duration < HUGE_VAL)) return false;
+  ahead.kind = Ahead::Kind::wall;
+  ahead.piece = wall;
+  ahead.root = 0;
+  ahead.kappa = kappa;
+  ahead.duration = duration;
+  return true;
 }
 
 /// The hit of a line on the wall that it leaves through; of conics those about the domain.
@@ -68,14 +88,7 @@ inline constexpr double least_square = 0x1p-900;
     const double n = std::fabs(q.b) + (on_wall ? std::fabs(q.b) : std::sqrt(discriminant_of(q)));
     found = detail::quotients(-q.b, base::Pair{-q.a, n}, base::Pair{n, q.c});
   }
-  const double duration = found[0];
-  if (!(duration > 0.0 && duration < HUGE_VAL)) return false;  // too short a way for doubles
-  ahead.kind = Ahead::Kind::wall;
-  ahead.piece = wall;
-  ahead.root = 0;
-  ahead.kappa = found[1];
-  ahead.duration = duration;
-  return true;
+  return put(wall, found[0], found[1], ahead);
 }
 
 /// A Larmor circle against segments and circular arcs.
@@ -99,7 +112,8 @@ inline constexpr double least_square = 0x1p-900;
         wall = first;
         break;
       }
-      const Sign leaves = t_.crossed_twice(f, first, t_.origin_of(f, 0));
+      const Flight copy = f;  // or the flight would live in memory
+      const Sign leaves = t_.crossed_twice(copy, first, t_.origin_of(copy, 0));
       if (leaves == Sign::undecided) return false;
       if (leaves == Sign::positive) {
         wall = first;

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/pair.hpp"
+#include "base/fused_pair.hpp"
 #include "carom/geometry/filter.hpp"
 
 namespace carom::events {
@@ -16,7 +16,8 @@ namespace carom::events {
 class Enclosure {
  public:
   static constexpr int undecided = -1;
-  static constexpr int most = 32;  ///< walls
+  static constexpr int most = 32;     ///< walls
+  static constexpr int most_met = 8;  ///< walls that meets_all
 
   /// Adds the wall that starts at `from`; a bent one has no tangent.
   void add(geometry::Vector from, geometry::Vector tangent, double length, bool bent) {
@@ -35,6 +36,7 @@ class Enclosure {
     if (bent) bent_ |= std::uint64_t{1} << i;
     ++size_;
     all_ = (std::uint64_t{1} << size_) - 1;
+    few_segments_ = bent_ == 0 && 1 < size_ && size_ <= most_met;
   }
   /// Bounds the l1 distance between two points of the loop.
   void set_diameter(double d) { diameter_ = d; }
@@ -47,15 +49,32 @@ class Enclosure {
     std::uint64_t joints = 0;
     bool decided = false;
   };
+  /// Where a line meets those of two walls that are segments: time / unit after its start.
+  struct Meeting {
+    base::Pair time, unit, duration;
+  };
+  /// Are all walls segments, and so few that to meet all of them takes less long than to wait until
+  /// it is known which is the exit?
+  bool meets_all() const { return few_segments_ && base::fuses(); }
+  /// `meets`: `met` is filled in with the meetings with all walls.
+  template <bool meets = false>
   [[gnu::always_inline]] Right right_of_line(geometry::Vector origin, geometry::Vector v,
-                                             double bound) const {
+                                             double bound, Meeting* met = nullptr) const {
     const Vectors from{base::both(origin.x), base::both(origin.y)},
         velocity{base::both(v.x), base::both(v.y)};
     base::Pair least = base::both(HUGE_VAL);
     std::uint64_t right = 0;
     int shift = 0;
     for (const Two& w : walls_) {
-      const base::Pair side = cross(velocity, w.from - from);
+      const Vectors way = w.from - from;
+      if constexpr (meets) {
+        base::fuses_surely();
+        met->time = geometry::fused_cross(w.tangent, way);
+        met->unit = geometry::fused_cross(w.tangent, velocity);
+        met->duration = met->time / met->unit;
+        ++met;
+      }
+      const base::Pair side = cross(velocity, way);
       least = base::smaller(base::magnitude(side), least);
       right |= static_cast<std::uint64_t>(base::signs(side)) << shift;
       shift += 2;
@@ -65,9 +84,10 @@ class Enclosure {
   }
   /// A line leaves a convex loop between a joint on its right and the next one on its left; size():
   /// all lie on one side.
-  [[gnu::always_inline]] int exit_of_line(geometry::Vector origin, geometry::Vector v,
-                                          double bound) const {
-    const auto [right, decided] = right_of_line(origin, v, bound);
+  template <bool meets = false>
+  [[gnu::always_inline]] int exit_of_line(geometry::Vector origin, geometry::Vector v, double bound,
+                                          Meeting* met = nullptr) const {
+    const auto [right, decided] = right_of_line<meets>(origin, v, bound, met);
     if (!decided) return undecided;
     return std::countr_zero((right & ~(right >> 1 | right << (size_ - 1))) | std::uint64_t{1}
                                                                                  << size_);
@@ -146,6 +166,7 @@ class Enclosure {
   std::vector<Two> walls_;
   std::uint64_t bent_ = 0, all_ = 0;
   int size_ = 0;
+  bool few_segments_ = false;
   double diameter_ = 0.0;
 };
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/fused_pair.hpp"
 #include "carom/base/random.hpp"
 #include "events/bodies.hpp"
 #include "events/flight/locator.hpp"
@@ -32,6 +33,10 @@ class FreeFlights {
   bool apply(int index, Time now, Observer& observer);
   /// The same for callers that it is not inlined into.
   bool apply_apart(int index, Time now, Observer& observer);
+
+  /// Applies hits of a body that is alone as long as there is nothing else to attend to, at most so
+  /// many, with its flight in local variables. Returns how many; what it leaves is for `apply`.
+  std::uint64_t apply_hits(int index, double t_end, std::uint64_t most, Observer& observer);
 
   /// Throws std::invalid_argument unless the velocity has the length of the particle's speed.
   void check_speed(const Body& b) const;
@@ -98,6 +103,19 @@ class FreeFlights {
                              const PieceTable::Landing& landing, geometry::Vector mirrored);
   void add_corners(const PieceTable& pieces);
   static void set_speed(Body& b, double speed);
+  static geometry::Vector mirrored(const Body& b, geometry::Vector before,
+                                   const geometry::PreparedCurve::Arrival& at) {
+    return geometry::reflected(before, at.normal, at.factor, step_to_energy_shell(before, b.shell));
+  }
+  static void put_on_wall(Body& b, int wall, Time now, const geometry::PreparedCurve::Arrival& at,
+                          geometry::Vector velocity);
+  template <bool larmor>
+  std::uint64_t apply_hits(int index, double t_end, std::uint64_t most, Observer& observer);
+  void begin_off_joints(Body& b) const {
+    const State& s = b.state;
+    PieceTable::begin_off_joints(b.flight, s.wall, pieces().curve(s.wall), s.u, s.position,
+                                 s.velocity);
+  }
   static void put_on_edge(Body& b, Time now, const PieceTable::Landing& landing);
   /// At a wall of these pieces that the body does not pass. `first`: the number of their first wall
   /// in the table, 0 outside of regions.
@@ -108,6 +126,7 @@ class FreeFlights {
 
   HitFinder finder_;
   bool over_edges_;
+  bool plain_;  ///< all walls are mirrors without holes, in one cell, and no forces act
   Bodies& bodies_;
   const ForceRegions& regions_;
   struct Scattering {
@@ -172,23 +191,34 @@ class FreeFlights {
   bodies_.schedule(index, when, kind);
 }
 
+[[gnu::always_inline]] inline void FreeFlights::put_on_wall(
+    Body& b, int wall, Time now, const geometry::PreparedCurve::Arrival& at,
+    geometry::Vector velocity) {
+  b.state.wall = wall;
+  b.state.u = at.u;
+  b.state.position = at.point;
+  b.state.velocity = velocity;
+  b.state.time.high = now.high;
+  b.state.time.low = now.low;
+}
+
 [[gnu::always_inline]] inline bool FreeFlights::reflect(int index, Body& b, Time now,
                                                         Observer& observer,
                                                         const PieceTable& pieces, int first,
                                                         const PieceTable::Landing& landing) {
   const geometry::Vector before = landing.velocity;
   const geometry::Vector normal = landing.at.normal;
-  const double step = step_to_energy_shell(before, b.shell);
   geometry::Vector after;
   int reflections = 1;
   if (b.ahead.kind == Ahead::Kind::joint) {
     reflections = corners_[static_cast<std::size_t>(first + landing.wall)];
     if (reflections == 0) return bodies_.end(index, Fate::singular, now, observer), true;
     const int previous = pieces.table.walls[static_cast<std::size_t>(landing.wall)].previous;
+    const double step = step_to_energy_shell(before, b.shell);
     after = (1.0 + step) * motion::reflected_at_corner(before, pieces.normal_at_end(previous),
                                                        normal, reflections);
   } else {
-    after = geometry::reflected(before, normal, landing.at.factor, step);
+    after = mirrored(b, before, landing.at);
   }
   if (scattering_.any) [[unlikely]] {
     const PieceTable::Landing there = landing;  // a copy, or the landing would live in memory
@@ -202,14 +232,9 @@ class FreeFlights {
   }
   if (inward != Sign::positive) return bodies_.end(index, Fate::singular, now, observer), true;
 
-  b.state.wall = first + landing.wall;
-  b.state.u = landing.at.u;
-  b.state.position = landing.at.point;
-  b.state.velocity = after;
+  put_on_wall(b, first + landing.wall, now, landing.at, after);
   b.state.cell.first += landing.cell.first;
   b.state.cell.second += landing.cell.second;
-  b.state.time.high = now.high;
-  b.state.time.low = now.low;
   pieces.begin_on_wall(b.flight, landing.wall, *landing.curve, landing.at.u, landing.at.point,
                        after);
   const HitEvent& hit = bodies_.count_hit(index, b, b.state, before, b.ahead.duration, reflections);
@@ -275,6 +300,68 @@ class FreeFlights {
     return false;
   }
   return meet(index, b, now, observer, pieces(), 0, landing);
+}
+
+/// Each number of the body is stored, as an observer may ask for it, but what the next hit needs is
+/// taken from local variables: it does not wait for what was just stored.
+template <bool larmor>
+[[gnu::noinline]] std::uint64_t FreeFlights::apply_hits(int index, double t_end, std::uint64_t most,
+                                                        Observer& observer) {
+  Body& b = bodies_[index];
+  struct Row {
+    FreeFlights& flights;
+    const int index;
+    Body& b;
+    std::uint64_t hits = 0;
+    ~Row() {  // also where an observer throws
+      if (hits == 0) return;
+      flights.begin_off_joints(b);
+      flights.schedule(index, b);
+    }
+  } row{*this, index, b};
+  // Without the processor's instruction, `apply` is as good.
+  while (row.hits < most && b.ahead.kind == Ahead::Kind::wall && base::fuses()) {
+    const double duration = b.ahead.duration;
+    const Time now = b.state.time + duration;
+    if (!(now.high < t_end) && now > Time(t_end)) break;
+    Flight flight;
+    flight.omega = larmor ? b.flight.omega : 0.0;
+    flight.square_speed = b.flight.square_speed;
+    flight.start = b.state.position;
+    flight.velocity = b.state.velocity;
+    const int wall = b.ahead.piece;
+    const geometry::PreparedCurve& curve = pieces().curve(wall);
+    geometry::Vector before;
+    geometry::PreparedCurve::Arrival at;
+    curve.arrive(PieceTable::end_of(flight, b.ahead, flight.start, before), before, at, b.ahead.u);
+    base::fuses_surely();
+    const geometry::Vector after = mirrored(b, before, at);
+    if (pieces().inward_off_joints(curve, after, at.normal) != Sign::positive ||
+        bodies_.next_reaches_limit(b))
+      break;
+    ++counts_.filter;
+    put_on_wall(b, wall, now, at, after);
+    const HitEvent& hit = bodies_.count_hit(index, b, b.state, before, duration, 1);
+    PieceTable::begin_off_joints(flight, wall, curve, at.u, at.point, after);
+    Ahead ahead;
+    base::fuses_surely();
+    if (finder_.next_in_convex(flight, ahead, counts_)) {
+      b.ahead = ahead;
+    } else {
+      begin_off_joints(b);
+      finder_.next_in_any(b.flight, b.ahead, counts_);
+    }
+    ++row.hits;
+    observer.hit(hit);
+  }
+  return row.hits;
+}
+
+inline std::uint64_t FreeFlights::apply_hits(int index, double t_end, std::uint64_t most,
+                                             Observer& observer) {
+  if (!plain_) return 0;
+  return bodies_[index].flight.omega != 0.0 ? apply_hits<true>(index, t_end, most, observer)
+                                            : apply_hits<false>(index, t_end, most, observer);
 }
 
 }  // namespace carom::events

@@ -82,6 +82,7 @@ class HitFinder {
   Sign meets_one_disc(const Flight& flight, const Origin& origin, int& met, Quotient& at) const;
   int exit_of_enclosure(const Flight& flight, const Origin& origin) const;
   static bool put(int piece, Ahead::Kind kind, const Quotient& at, Ahead& ahead);
+  static bool put(int wall, double duration, double kappa, Ahead& ahead);
   void next_by_signs(const Flight& flight, Ahead& ahead, DecisionCounts& counts);
 
   // Tables of many walls (grid_hit.cpp).

@@ -45,6 +45,9 @@ struct PieceTable {
   /// The same where the caller has the wall's curve.
   void begin_on_wall(Flight& flight, int wall, const geometry::PreparedCurve& curve, double u,
                      geometry::Vector point, geometry::Vector velocity) const;
+  /// The same off the wall's joints, in a table without cells.
+  static void begin_off_joints(Flight& flight, int wall, const geometry::PreparedCurve& curve,
+                               double u, geometry::Vector point, geometry::Vector velocity);
   /// Is the start strictly inside the cell (or on its edge, see locate)?
   bool in_cell(const Flight& flight) const;
   /// Follows the flight over the edge that `ahead` names.
@@ -69,6 +72,9 @@ struct PieceTable {
     land(flight, ahead, landing, counts);
     return landing;
   }
+  /// Where a flight ends that is seen to start at `origin`, and its velocity there.
+  static geometry::Vector end_of(const Flight& flight, const Ahead& ahead, geometry::Vector origin,
+                                 geometry::Vector& velocity);
   /// Does v at (wall, u) point into the domain? At u = 0 this is asked of both walls of the joint.
   /// `normal`: a rounded normal there.
   Sign inward(int wall, double u, geometry::Vector v, geometry::Vector normal,
@@ -77,6 +83,13 @@ struct PieceTable {
   }
   Sign inward(int wall, const geometry::PreparedCurve& curve, double u, geometry::Vector v,
               geometry::Vector normal, DecisionCounts& counts) const;
+  /// The same off the joints, as far as doubles tell.
+  [[gnu::always_inline]] Sign inward_off_joints(const geometry::PreparedCurve& curve,
+                                                geometry::Vector v, geometry::Vector normal) const {
+    const double bound =
+        options.filter_inflation * curve.normal_bound * (std::fabs(v.x) + std::fabs(v.y));
+    return sign_within(dot(normal, v), bound);
+  }
   /// Error of kappa of what lies ahead.
   double error_of(const Flight& flight, const Ahead& ahead) const;
 
@@ -237,10 +250,10 @@ struct PieceTable {
   f.entry = shared_->opposite[number];
 }
 
-[[gnu::always_inline]] inline void PieceTable::begin_on_wall(Flight& f, int wall,
-                                                             const geometry::PreparedCurve& w,
-                                                             double u, geometry::Vector point,
-                                                             geometry::Vector velocity) const {
+[[gnu::always_inline]] inline void PieceTable::begin_off_joints(Flight& f, int wall,
+                                                                const geometry::PreparedCurve& w,
+                                                                double u, geometry::Vector point,
+                                                                geometry::Vector velocity) {
   f.wall = wall;
   f.u = u;
   f.start = point;
@@ -248,9 +261,29 @@ struct PieceTable {
   f.velocity = velocity;
   f.cell.first = f.cell.second = 0;
   f.entry = -1;
-  if (!discs_within && !(u > 0.0 && (!cells || piece(wall).within))) return begin(f);
   f.start_piece = wall;
   f.start_previous = -1;
+}
+
+[[gnu::always_inline]] inline void PieceTable::begin_on_wall(Flight& f, int wall,
+                                                             const geometry::PreparedCurve& w,
+                                                             double u, geometry::Vector point,
+                                                             geometry::Vector velocity) const {
+  begin_off_joints(f, wall, w, u, point, velocity);
+  if (!discs_within && !(u > 0.0 && (!cells || piece(wall).within))) begin(f);
+}
+
+[[gnu::always_inline]] inline geometry::Vector PieceTable::end_of(const Flight& f,
+                                                                  const Ahead& ahead,
+                                                                  geometry::Vector origin,
+                                                                  geometry::Vector& velocity) {
+  if (f.omega == 0.0) {
+    velocity = f.velocity;
+    return geometry::moved(origin, ahead.duration, f.velocity);
+  }
+  const auto factors = geometry::flight_factors(ahead.kappa, f.omega, 0.5);
+  velocity = geometry::turned_by(f.omega * factors.along, f.omega * factors.across, f.velocity);
+  return origin + geometry::displacement(factors, f.velocity);
 }
 
 [[gnu::always_inline]] inline void PieceTable::land(const Flight& f, const Ahead& ahead,
@@ -270,17 +303,7 @@ struct PieceTable {
   const geometry::PreparedCurve& w = curves[static_cast<std::size_t>(landing.wall)];
   landing.curve = &w;
   landing.hole = -1;
-  const bool larmor = f.omega != 0.0;
-  geometry::Vector end;
-  if (larmor) {
-    const auto factors = geometry::flight_factors(ahead.kappa, f.omega, 0.5);
-    end = origin + geometry::displacement(factors, f.velocity);
-    landing.velocity =
-        geometry::turned_by(f.omega * factors.along, f.omega * factors.across, f.velocity);
-  } else {
-    end = geometry::moved(origin, ahead.duration, f.velocity);
-    landing.velocity = f.velocity;
-  }
+  const geometry::Vector end = end_of(f, ahead, origin, landing.velocity);
   if (ahead.kind == Ahead::Kind::joint) {
     const geometry::PreparedCurve::Frame at = w.frame(0.0);
     landing.at.point = at.point;
@@ -297,9 +320,7 @@ struct PieceTable {
                                                       geometry::Vector normal,
                                                       DecisionCounts& counts) const {
   if (u > 0.0) {
-    const double bound =
-        options.filter_inflation * w.normal_bound * (std::fabs(v.x) + std::fabs(v.y));
-    const Sign sign = sign_within(dot(normal, v), bound);
+    const Sign sign = inward_off_joints(w, v, normal);
     if (sign != Sign::undecided) {
       ++counts.filter;
       return sign;
