@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::size_t most = Bezier::most;
 using Powers = std::array<double, most + 1>;
+/// Two doubles side by side, each rounded by itself.
+using Pair [[gnu::vector_size(16)]] = double;
 
 double norm_1(Vector v) { return std::fabs(v.x) + std::fabs(v.y); }
 
@@ -35,6 +37,7 @@ struct Steps {
 /// highest power is none.
 template <std::size_t degree>
 class Line {
+  // Loops over powers are unrolled, or counting costs as much as they do.
  public:
   Line(const BezierForm& curve, Vector start, Vector v, const FlightScale& scale, double on);
 
@@ -45,6 +48,7 @@ class Line {
   Course course() const {
     Steps steps;
     double last = across_[0];
+#pragma GCC unroll 8
     for (std::size_t i = 1; i <= degree; ++i) {
       const double g = cross(v_, curve_.control[i] - start_);
       steps.add(g - last);
@@ -56,23 +60,19 @@ class Line {
   }
   bool surely_missed() const;
   double error() const { return error_; }
-  double value(double u) const { return value(across_, u); }
-  double slope(double u) const {
-    double sum = 0.0;
-    for (std::size_t k = degree; k > 0; --k) sum = rates_[k] + u * sum;
-    return sum;
+  double value(double u) const { return at(u).value; }
+  /// Both by Horner's rule, side by side.
+  Local at(double u) const {
+    Pair sum = local_[degree];
+#pragma GCC unroll 8
+    for (std::size_t k = 1; k <= degree; ++k) sum = local_[degree - k] + Pair{u, u} * sum;
+    return {sum[0], sum[1]};
   }
-  Local at(double u) const { return {value(u), slope(u)}; }
   /// The exit at a root that u misses by at most `spread`: none if it lies behind.
   CurveExit exit_at(double u, double spread) const;
   static bool is_before(double place, double other) { return place < other; }
 
  private:
-  double value(const Powers& p, double u) const {
-    double sum = p[degree];
-    for (std::size_t k = degree; k-- > 0;) sum = p[k] + u * sum;
-    return sum;
-  }
   double coefficient_error(double distance) const {
     return scale_.inflation * 1.01 * norm_1(v_) * (scale_.delta + 4.1 * unit_roundoff * distance);
   }
@@ -85,9 +85,10 @@ class Line {
   const FlightScale& scale_;
   Vector start_, v_;
   double on_, size_;
-  Powers across_{}, along_{}, rates_{};  // rates: k across_[k]
-  double error_ = 0.0;                   // of a value of both
-  double along_slope_ = 0.0;             // bounds that of a
+  Powers across_{}, along_{};
+  std::array<Pair, most + 1> local_;  // across_[k] and (k + 1) across_[k + 1]
+  double error_ = 0.0;                // of a value of both
+  double along_slope_ = 0.0;          // bounds that of a
 };
 
 template <std::size_t degree>
@@ -95,6 +96,7 @@ Line<degree>::Line(const BezierForm& curve, Vector start, Vector v, const Flight
                    double on)
     : curve_(curve), scale_(scale), start_(start), v_(v), on_(on), size_(norm_1(v) * curve.reach) {
   constexpr double u = unit_roundoff, n = degree;
+#pragma GCC unroll 8
   for (std::size_t k = 1; k <= degree; ++k) {
     across_[k] = cross(v, curve.power[k]);
     along_[k] = dot(v, curve.power[k]);
@@ -117,7 +119,10 @@ Line<degree>::Line(const BezierForm& curve, Vector start, Vector v, const Flight
     error_ = scale.inflation * (4.0 * n + 4.1) * u * n * size_;
     along_slope_ = n * n * size_;
   }
-  for (std::size_t k = 1; k <= degree; ++k) rates_[k] = static_cast<double>(k) * across_[k];
+#pragma GCC unroll 8
+  for (std::size_t k = 0; k < degree; ++k)
+    local_[k] = Pair{across_[k], static_cast<double>(k + 1) * across_[k + 1]};
+  local_[degree] = Pair{across_[degree], 0.0};
 }
 
 template <std::size_t degree>
@@ -160,7 +165,9 @@ bool Line<degree>::surely_missed() const {
 
 template <std::size_t degree>
 CurveExit Line<degree>::exit_at(double u, double spread) const {
-  double along = value(along_, u);
+  double along = along_[degree];
+#pragma GCC unroll 8
+  for (std::size_t k = 1; k <= degree; ++k) along = along_[degree - k] + u * along;
   double error = error_ + along_slope_ * spread;
   if (stands()) {
     const double way = u - on_;

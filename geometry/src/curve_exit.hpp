@@ -2,6 +2,7 @@
 // polynomial in u: `Path` is a line or a Larmor circle (bezier_flight.cpp).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -28,24 +29,29 @@ struct Course {
 /// `last`. Negative: the flight does not leave there.
 CurveExit exit_between(const auto& path, double first, double last, double from, double to,
                        bool rises) {
-  double low = from, high = to;
+  const double error = path.error(), before = rises ? -1.0 : 1.0;
+  double low = from, high = to, slope = 0.0;
   double u = from + (to - from) * (first / (first - last));
   for (int i = 0; i < 100; ++i) {
     const Local here = path.at(u);
+    slope = here.slope;
     if (here.value == 0.0) break;
-    ((here.value < 0.0) == rises ? low : high) = u;
+    // Chosen without a branch: a processor cannot guess the side.
+    const bool root_is_above = before * here.value > 0.0;
+    low = root_is_above ? u : low;
+    high = root_is_above ? high : u;
     double next = u - here.value / here.slope;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
     const double step = std::fabs(next - u);
     u = next;
     if (step <= 0x1p-52 * u) break;  // wherever it stops: signs about it decide below
   }
-  // Outwards until the signs are certain: then the root is between.
-  const double error = path.error(), before = rises ? -1.0 : 1.0;
-  double width = 2.0 * error / std::fabs(path.at(u).slope) + 4.0 * unit_roundoff;
+  // Outwards until the signs are certain: then the root is between. The slope is that of the last
+  // step, close by: any width would do to begin with.
+  double width = 2.0 * error / std::fabs(slope) + 4.0 * unit_roundoff;
   for (;; width *= 4.0) {
-    low = std::fmax(from, u - width);
-    high = std::fmin(to, u + width);
+    low = std::max(from, u - width);
+    high = std::min(to, u + width);
     const bool starts = low == from || before * path.value(low) > error,
                ends = high == to || -before * path.value(high) > error;
     if (starts && ends) break;
@@ -54,7 +60,7 @@ CurveExit exit_between(const auto& path, double first, double last, double from,
   // Along a wall that is grazed the place is hidden by rounding: the exact stage gives it. Both
   // stages decide by signs that are certain, so that the bound chooses the stage alone:
   // with it u is off by 2^-24 of the piece at most.
-  const double spread = std::fmax(u - low, high - u);
+  const double spread = std::max(u - low, high - u);
   if (spread > 0x1p-24) return {};
   if (path.stands()) {
     // Beyond the start a root is left through where the quotient by u - on rises, before it where

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/pair.hpp"
 #include "carom/geometry/curve.hpp"
 #include "carom/geometry/filter.hpp"
 #include "events/flight/pair_of_doubles.hpp"
@@ -73,7 +74,7 @@ class ChainTree {
                             PairOfDoubles rise) {
     const PairOfDoubles beyond = larger(smaller(from, to), -larger(from, to)) - near,
                         out = larger(beyond, -rise);
-    return (out[0] > 0.0 ? 0u : 1u) | (out[1] > 0.0 ? 0u : 2u);
+    return ~base::signs(out > both(0.0)) & 3u;
   }
   /// The nodes that flights begin with, number by number.
   struct Roots {

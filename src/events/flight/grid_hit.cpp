@@ -234,6 +234,9 @@ bool HitFinder::filtered_in_tree(const Flight& f, Ahead& ahead) {
   list_.clear();
   bool crossed = false;
   const auto add = [&](int piece, bool surely) {
+    // Needed soon, one after the other. Without a lattice every piece is a wall, with its number.
+    fetch(t_.data[at(piece)], 1);
+    fetch(t_.curves[at(piece)], 5);
     list_.push_back(piece);
     crossed = surely;
   };
