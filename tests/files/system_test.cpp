@@ -78,8 +78,8 @@ TEST(System, EveryKindOfStartIsRead) {
                        text))
         .initial;
   };
-  EXPECT_EQ(initial("kind = \"boundary\"\n").wall, -1);
-  EXPECT_EQ(initial("kind = \"boundary\"\nwall = \"top\"\n").wall, 2);
+  EXPECT_EQ(initial("kind = \"boundary\"\n").walls, std::vector<int>{});
+  EXPECT_EQ(initial("kind = \"boundary\"\nwall = \"top\"\n").walls, std::vector<int>{2});
   EXPECT_EQ(initial("kind = \"boundary\"\nhole = \"door\"\n").hole, 0);
   EXPECT_EQ(initial("kind = \"hole\"\nhole = \"door\"\n").kind, Kind::hole);
   const InitialCondition up =
