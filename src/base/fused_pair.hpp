@@ -4,22 +4,21 @@
 #include "base/pair.hpp"
 #include "carom/base/fused_product.hpp"
 
-namespace carom {
-
 template <>
-struct FusedProduct<base::Pair> {
-  [[gnu::always_inline]] static base::Pair of(base::Pair a, base::Pair b, base::Pair c) {
+struct carom::FusedProduct<carom::base::Pair> {
+  using Pair = base::Pair;
+  [[gnu::always_inline]] static Pair of(Pair a, Pair b, Pair c) {
 #if defined(__x86_64__) && !defined(__FMA__)
     if (__builtin_expect(detail::fuses, 1)) {
       asm("vfmadd231pd %2, %1, %0" : "+x"(c) : "x"(a), "xm"(b));  // as of doubles
       return c;
     }
 #endif
-    return base::Pair{fused_product(a[0], b[0], c[0]), fused_product(a[1], b[1], c[1])};
+    return Pair{fused_product(a[0], b[0], c[0]), fused_product(a[1], b[1], c[1])};
   }
 };
 
-namespace base {
+namespace carom::base {
 
 /// Does the processor fuse products itself?
 inline bool fuses() { return carom::detail::fuses; }
@@ -29,6 +28,4 @@ inline bool fuses() { return carom::detail::fuses; }
   if (!carom::detail::fuses) __builtin_unreachable();
 }
 
-}  // namespace base
-
-}  // namespace carom
+}  // namespace carom::base

@@ -127,13 +127,14 @@ TEST(Escape, InterruptedEndsWithWholeBlocks) {
   options.block = 16;
   options.interrupted = &stop;
   std::uint64_t recorded = 0;
-  options.progress = [&](std::uint64_t done, std::uint64_t) { stop = stop || done > 500; };
+  // Each of 64 lanes of a thread may keep a block from being whole, of which the rest is reported.
+  options.progress = [&](std::uint64_t done, std::uint64_t) { stop = stop || done > 5000; };
   EscapeRecords journal(
       [&](const std::vector<TrajectoryRecord>& records) { recorded += records.size(); });
   options.journal = &journal;
   const EscapeResult result = run_escape(system, options);
   EXPECT_FALSE(result.complete);
-  EXPECT_GT(result.counts.trajectories, 300u);
+  EXPECT_GT(result.counts.trajectories, 2500u);
   EXPECT_EQ(result.counts.trajectories % 16, 0u);
   EXPECT_EQ(result.counts.trajectories, recorded);
 }
