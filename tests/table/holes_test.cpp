@@ -135,6 +135,15 @@ TEST(Holes, RunOnOverWallsThatAreNumbered) {
   EXPECT_NEAR(length(ends(table).second - ends(round).second), 0.0, 1e-14);
 }
 
+TEST(WallLaws, AreOfAllWallsOfAName) {
+  TableSpec spec = shape("regular", {{"sides", "6"}, {"radius", "1"}});
+  spec.laws.push_back({.wall = "side", .specularity = 0.0, .place = {}, .wall_place = {}});
+  spec.laws.push_back({.wall = "side_2", .specularity = 0.5, .place = {}, .wall_place = {}});
+  const Table table = build_table(spec);
+  for (const Wall& wall : table.walls)
+    EXPECT_EQ(wall.specularity, wall.name == "side_2" ? 0.5 : 0.0) << wall.name;
+}
+
 TEST(Holes, FaultsAreFoundAtTheirPlace) {
   const InputError unknown = fault(with_hole(square, "botom", "1/2", "0.1"));
   EXPECT_EQ(unknown.place().key, "table.hole[0].wall");

@@ -6,7 +6,8 @@
 
 namespace carom {
 
-/// Receives what happens. Every function may be left alone. Observing changes no bit of an orbit.
+/// Receives what happens. Every function may be left alone. Observing changes no bit of an orbit:
+/// an observer may ask the world for states, but must not add particles or remove them.
 class Observer {
  public:
   virtual ~Observer() = default;
