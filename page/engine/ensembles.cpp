@@ -93,7 +93,7 @@ Options typed(const Request& request, const OpenSystem& open) {
 
 /// Flies until the step that the program chose keeps the energy, as the commands do.
 template <class Result, class Fly>
-Result flown_well(const Options& options, LoadedSystem& loaded, cli::OwnStep& own_step, Fly fly) {
+Result flown_well(LoadedSystem& loaded, cli::OwnStep& own_step, Fly fly) {
   for (;;) {
     Result result = fly(loaded.system);
     if (!own_step.halve(loaded, result.energy_error)) return result;
@@ -117,7 +117,7 @@ Json whole(const Options& options) {
   cli::OwnStep own_step(options);
   EnsembleOptions<Result> how;
   how.lanes.reset();
-  const auto result = flown_well<Result>(options, loaded, own_step,
+  const auto result = flown_well<Result>(loaded, own_step,
                                          [&](const System& system) { return flown(system, how); });
   return own_step.with_halvings(printed(loaded.system, result));
 }
@@ -183,7 +183,7 @@ Json sections(const Options& options) {
   SectionOptions how;
   how.lanes.reset();
   const auto result = flown_well<SectionResult>(
-      options, loaded, own_step, [&](const System& system) { return run_section(system, how); });
+      loaded, own_step, [&](const System& system) { return run_section(system, how); });
   return own_step.with_halvings(cli::section_json(loaded.system, result, "completed", ""));
 }
 

@@ -21,6 +21,7 @@
 #pragma once
 
 #include <concepts>
+#include <functional>
 #include <type_traits>
 
 #include "carom/results/ensemble_result.hpp"
@@ -33,6 +34,20 @@ namespace carom::results {
 template <class R, class Result>
 concept OrConst = std::same_as<std::remove_const_t<R>, Result>;
 
+/// The numbers of a struct, or of a base of it, as the fields say.
+template <class Struct>
+void describe_numbers(auto& v, auto& s, const System& system) {
+  each_field<Fields<Struct>>([&](const auto& one) {
+    auto& value = std::invoke(one.at, s);
+    if (one.archived)
+      v.kept(one.label, value);
+    else if (one.there != nullptr)
+      v.number_if((system.*one.there)(), one.label, value);
+    else
+      v.number(one.label, value);
+  });
+}
+
 /// What integration has cost, and how well energies were kept.
 void describe_integration(auto& v, auto& result, const System& system) {
   v.numbers_if(system.is_integrated(), result.energy_error);
@@ -43,9 +58,7 @@ void describe_integration(auto& v, auto& result, const System& system) {
 void describe_ends(auto& v, auto& result, const System& system) {
   v.number({"trajectories", "1", "All particles of all trajectories"}, result.trajectories);
   v.fates(result, result.trajectories);
-  v.number({"collisions", "1", "Reflections of all particles"}, result.collisions);
-  v.number_if(system.of_discs(), {"contacts", "1", "Contacts of hard discs, each pair once"},
-              result.contacts);
+  describe_numbers<EndCounts>(v, result, system);
   v.number({"digest", "1",
             "Sum of a hash of each trajectory's end: different ends give a different digest"},
            result.digest);

@@ -17,13 +17,11 @@ struct OfTheFirst : Recorder {
   }
 };
 
-State first_start() { return start({0.31, 0.2}, {0.6, 0.8}); }
-
-World world_of(const Table& table, double omega, int bodies) {
+World world_of(const Table& table, double omega, int bodies, Vector from = {0.31, 0.2}) {
   World world(table);
   world.limit_hits(hits);
-  world.add(particle(omega), first_start());
-  if (bodies > 1) world.add(particle(omega), start({0.3, 0.21}, {0.8, -0.6}));
+  world.add(particle(omega), start(from, {0.6, 0.8}));
+  if (bodies > 1) world.add(particle(omega), start(from + Vector{-0.01, 0.01}, {0.8, -0.6}));
   return world;
 }
 
@@ -34,6 +32,7 @@ void expect_same(const std::vector<HitEvent>& a, const std::vector<HitEvent>& b)
     ASSERT_EQ(a[i].u, b[i].u) << i;
     ASSERT_EQ(a[i].time, b[i].time) << i;
     ASSERT_EQ(a[i].flight_time, b[i].flight_time) << i;
+    ASSERT_EQ(a[i].cell, b[i].cell) << i;
     ASSERT_EQ(a[i].position, b[i].position) << i;
     ASSERT_EQ(a[i].before, b[i].before) << i;
     ASSERT_EQ(a[i].after, b[i].after) << i;
@@ -46,6 +45,7 @@ struct Unruly : Recorder {
   void hit(const HitEvent& e) override {
     Recorder::hit(e);
     const State state = world->state(0);
+    EXPECT_EQ(state.cell, e.cell);
     EXPECT_EQ(state.position, e.position);
     EXPECT_EQ(state.velocity, e.after);
     EXPECT_EQ(state.time, e.time);
@@ -54,32 +54,45 @@ struct Unruly : Recorder {
   }
 };
 
+void expect_the_hits_beside_another(const Table& table, double omega, Vector from = {0.31, 0.2}) {
+  OfTheFirst alone, beside;
+  World one = world_of(table, omega, 1, from), two = world_of(table, omega, 2, from);
+  one.run_until(1e300, alone);
+  two.run_until(1e300, beside);
+  expect_same(alone.hits, beside.hits);
+  ASSERT_EQ(alone.ends.size(), 1u);
+  EXPECT_EQ(one.fate(0), two.fate(0));
+
+  World interrupted = world_of(table, omega, 1, from);
+  Unruly unruly;
+  unruly.world = &interrupted;
+  for (bool over = false; !over;) {
+    try {
+      interrupted.run_until(1e300, unruly);
+      over = true;
+    } catch (const std::runtime_error&) {
+    }
+  }
+  expect_same(unruly.hits, alone.hits);
+}
+
 TEST(LoneBody, HasTheHitsThatItHasBesideAnother) {
   const Table tables[] = {square(),  polygon({{0, 0}, {1, 0}, {1.2, 0.7}, {0.4, 1.1}, {-0.2, 0.6}}),
                           stadium(), mushroom(1.0, 0.5, 0.7),
                           disc(1.0), sinai()};
   for (const Table& table : tables)
-    for (const double omega : {0.0, 0.4, -1.3}) {
-      OfTheFirst alone, beside;
-      World one = world_of(table, omega, 1), two = world_of(table, omega, 2);
-      one.run_until(1e300, alone);
-      two.run_until(1e300, beside);
-      expect_same(alone.hits, beside.hits);
-      ASSERT_EQ(alone.ends.size(), 1u);
-      EXPECT_EQ(one.fate(0), two.fate(0));
+    for (const double omega : {0.0, 0.4, -1.3}) expect_the_hits_beside_another(table, omega);
+}
 
-      World interrupted = world_of(table, omega, 1);
-      Unruly unruly;
-      unruly.world = &interrupted;
-      for (bool over = false; !over;) {
-        try {
-          interrupted.run_until(1e300, unruly);
-          over = true;
-        } catch (const std::runtime_error&) {
-        }
-      }
-      expect_same(unruly.hits, alone.hits);
-    }
+TEST(LoneBody, HasThemInALattice) {
+  // Discs that are near each other, flights over many cells, two discs in a cell, and one across
+  // its edges.
+  const Table tables[] = {lorentz({2.2, 0}, {1.1, 1.9}), lorentz({9, 0}, {2, 7}),
+                          with_disc(lorentz({5, 0}, {0, 5}), {1.6, 1.7}, 0.5),
+                          with_disc(lorentz({5, 0}, {0, 5}), {2.4, 2.3}, 0.5)};
+  for (const Table& table : tables)
+    for (const double omega : {0.0, 0.4, -1.3})
+      expect_the_hits_beside_another(table, omega, {1.0, 0.55});
 }
 
 TEST(LoneBody, StopsAtTheLastTimeAndGoesOn) {

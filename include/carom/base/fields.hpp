@@ -17,6 +17,11 @@ struct Label {
   const char* text;
 };
 
+struct System;
+
+/// How the numbers of two parts of an ensemble become that of both.
+enum class Join { sum, largest, least };
+
 /// `At` is a pointer to a member, or a function that takes the struct by `auto&` and returns a
 /// reference to what lies deeper. Archives hold it as `Kept`.
 template <class Kept, class At>
@@ -24,7 +29,10 @@ struct Field {
   using kept_type = Kept;
   Label label;
   At at;
-  bool later = false;  ///< archives may lack it: then it keeps its default
+  bool later = false;     ///< archives may lack it: then it keeps its default
+  bool archived = false;  ///< in archives alone, not in JSON
+  Join join = Join::sum;
+  bool (System::*there)() const = nullptr;  ///< for what systems it is reported; null: for all
 
   Kept kept(const auto& s) const { return static_cast<Kept>(std::invoke(at, s)); }
   void set(auto& s, Kept value) const {
@@ -55,17 +63,38 @@ constexpr auto later(Field<Kept, At> field) {
   field.later = true;
   return field;
 }
+template <class Kept, class At>
+constexpr auto archived(Field<Kept, At> field) {
+  field.archived = true;
+  return field;
+}
+template <class Kept, class At>
+constexpr auto joined(Join join, Field<Kept, At> field) {
+  field.join = join;
+  return field;
+}
+template <class Kept, class At>
+constexpr auto reported_if(bool (System::*there)() const, Field<Kept, At> field) {
+  field.there = there;
+  return field;
+}
 
 /// Calls `visit` with each field of a list, which is Fields<Struct> or a longer one.
 template <class List, class Visit>
 constexpr void each_field(Visit visit) {
   std::apply([&](const auto&... one) { (visit(one), ...); }, List::list);
 }
-/// Adds each field of other to that of sum.
+/// Joins each field of another part of an ensemble to that of the first.
 template <class Struct>
-void add_fields(Struct& sum, const Struct& other) {
-  each_field<Fields<Struct>>(
-      [&](const auto& one) { std::invoke(one.at, sum) += std::invoke(one.at, other); });
+void join_fields(Struct& all, const Struct& other) {
+  each_field<Fields<Struct>>([&](const auto& one) {
+    auto& value = std::invoke(one.at, all);
+    const auto& more = std::invoke(one.at, other);
+    if (one.join == Join::sum)
+      value += more;
+    else if (one.join == Join::largest ? more > value : more < value)
+      value = more;
+  });
 }
 
 }  // namespace carom

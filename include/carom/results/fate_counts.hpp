@@ -5,6 +5,7 @@
 
 #include "carom/base/fields.hpp"
 #include "carom/motion/state.hpp"
+#include "carom/system/system.hpp"
 
 namespace carom {
 
@@ -40,7 +41,39 @@ struct Fields<FateCounts> {
       field("lost", "1", "Internal errors: always 0", &C::lost)};
 };
 
-inline void FateCounts::add_fates(const FateCounts& other) { add_fields(*this, other); }
+inline void FateCounts::count(Fate fate) {
+  switch (fate) {
+    case Fate::survived:
+      ++survived;
+      return;
+    case Fate::pinned:
+      ++pinned;
+      ++survived;
+      return;
+    case Fate::capped:
+      ++capped;
+      ++survived;
+      return;
+    case Fate::escaped:
+      ++escaped;
+      return;
+    case Fate::singular:
+      ++singular;
+      return;
+    case Fate::unbounded:
+      ++unbounded;
+      ++escaped;
+      return;
+    case Fate::unresolved:
+      ++unresolved;
+      return;
+    case Fate::lost:
+      ++lost;
+      return;
+  }
+}
+
+inline void FateCounts::add_fates(const FateCounts& other) { join_fields(*this, other); }
 
 /// The fates, and what happened until then.
 struct EndCounts : FateCounts {
@@ -54,12 +87,23 @@ struct EndCounts : FateCounts {
     count(fate);
     collisions += hits;
   }
-  void add_ends(const EndCounts& other) {
-    add_fates(other);
-    trajectories += other.trajectories;
-    collisions += other.collisions;
-    contacts += other.contacts;
-  }
+  void add_ends(const EndCounts& other);
 };
+
+/// Besides the trajectories and their fates.
+template <>
+struct Fields<EndCounts> {
+  using C = EndCounts;
+  static constexpr std::tuple list{
+      field("collisions", "1", "Reflections of all particles", &C::collisions),
+      reported_if(&System::of_discs,
+                  field("contacts", "1", "Contacts of hard discs, each pair once", &C::contacts))};
+};
+
+inline void EndCounts::add_ends(const EndCounts& other) {
+  add_fates(other);
+  trajectories += other.trajectories;
+  join_fields(*this, other);
+}
 
 }  // namespace carom

@@ -68,16 +68,8 @@ void describe(V& v, Result& result, const System& system) {
   v.group("fates", "Numbers of trajectories by fate");
   v.number({"trajectories", "1", "All trajectories"}, c.trajectories);
   v.fates(c, c.trajectories);
-  v.number({"collisions", "1", "Reflections of all trajectories"}, c.collisions);
-  v.kept({"most_hits", "1", "Most reflections of a single trajectory"}, c.most_hits);
-  v.kept({"fewest_hits_of_survivor", "1",
-          "Fewest reflections of a survivor that is not pinned; 2^64 - 1: none"},
-         c.fewest_hits_of_survivor);
-  v.number_if(system.of_discs(), {"contacts", "1", "Contacts of hard discs, each pair once"},
-              c.contacts);
-  v.number_if(system.has_forces(),
-              {"energy_change", "energy", "The largest change of a particle's energy"},
-              c.energy_change);
+  results::describe_numbers<EndCounts>(v, c, system);
+  results::describe_numbers<SurvivalNumbers>(v, c, system);
   results::describe_integration(v, result, system);
   v.number({"digest", "1",
             "Sum of a hash of each trajectory's end: different ends give a different digest"},

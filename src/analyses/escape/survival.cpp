@@ -97,9 +97,7 @@ void SurvivalCounts::add(Fate fate, double time, std::uint64_t hits, int hole,
   Replicate* const part = parts.empty() ? nullptr : &parts[trajectory % replicates];
   const std::uint64_t before = part ? followed() : 0;
   add_end(fate, hits);
-  most_hits = std::max(most_hits, hits);
-  if (fate == Fate::capped || fate == Fate::survived)
-    fewest_hits_of_survivor = std::min(fewest_hits_of_survivor, hits);
+  note(fate, hits);
   if (part) part->followed += followed() - before;
   if (fate != Fate::escaped && fate != Fate::unbounded) return;
   const std::size_t by_time = ends_ ? ends_->first_from(time) : 0,
@@ -124,6 +122,7 @@ void GoneCounts::merge(const GoneCounts& other) {
 void SurvivalCounts::merge(const SurvivalCounts& other) {
   add_ends(other);
   GoneCounts::merge(other);
+  join_fields<SurvivalNumbers>(*this, other);
   if (parts.size() != other.parts.size())
     throw InternalError("merged ensembles differ in their replicates");
   for (std::size_t r = 0; r < parts.size(); ++r) {
@@ -132,9 +131,6 @@ void SurvivalCounts::merge(const SurvivalCounts& other) {
   }
   gone_at.merge(other.gone_at);
   gone_after.merge(other.gone_after);
-  fewest_hits_of_survivor = std::min(fewest_hits_of_survivor, other.fewest_hits_of_survivor);
-  most_hits = std::max(most_hits, other.most_hits);
-  energy_change = std::max(energy_change, other.energy_change);
 }
 
 std::vector<SurvivalPoint> survival(const SurvivalCounts& counts) {

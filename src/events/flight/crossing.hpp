@@ -11,7 +11,7 @@ namespace carom::events {
 
 inline double norm_1(geometry::Vector v) { return std::fabs(v.x) + std::fabs(v.y); }
 
-/// An ellipse without field. `stands`: as below.
+/// An ellipse without field. `on_wall`: as below.
 [[gnu::always_inline]] inline geometry::Quadratic<double> ellipse_quadratic(
     const geometry::PreparedCurve& w, geometry::Vector e, geometry::Vector v, bool on_wall) {
   geometry::Quadratic<double> q =
@@ -20,7 +20,19 @@ inline double norm_1(geometry::Vector v) { return std::fabs(v.x) + std::fabs(v.y
   return q;
 }
 
-/// All but Larmor circles against ellipses. `stands`: the start lies on the wall, and the leading
+/// A circle, up to its orientation.
+template <bool larmor>
+[[gnu::always_inline]] inline geometry::Quadratic<double> circle_quadratic(
+    const geometry::PreparedCurve& w, geometry::Vector e, geometry::Vector v, double v2,
+    double omega, bool on_wall) {
+  if constexpr (larmor)
+    return geometry::circle_quadratic(e, on_wall ? dot(e, e) : w.r2, v, v2, omega, 0.5);
+  geometry::Quadratic<double> q = geometry::circle_quadratic(e, w.r2, v, v2);
+  if (on_wall) q.a = 0.0;
+  return q;
+}
+
+/// All but Larmor circles against ellipses. `on_wall`: the start lies on the wall, and the leading
 /// coefficient is zero by algebra. Without field the terms with omega, which are exact zeros, are
 /// left out.
 template <bool larmor>
@@ -33,15 +45,9 @@ template <bool larmor>
     return line_quadratic(e, w.tangent, v, omega, 0.5);
   }
   const Vector e = origin - w.centre;
-  Quadratic<double> q;
-  if (w.kind == CurveKind::ellipse) {
-    q = ellipse_quadratic(w, e, v, on_wall);
-  } else if (larmor) {
-    q = circle_quadratic(e, on_wall ? dot(e, e) : w.r2, v, v2, omega, 0.5);
-  } else {
-    q = circle_quadratic(e, w.r2, v, v2);
-    if (on_wall) q.a = 0.0;
-  }
+  const Quadratic<double> q = w.kind == CurveKind::ellipse
+                                  ? ellipse_quadratic(w, e, v, on_wall)
+                                  : events::circle_quadratic<larmor>(w, e, v, v2, omega, on_wall);
   return w.orientation > 0 ? -q : q;
 }
 

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/fused_pair.hpp"
 #include "carom/base/random.hpp"
 #include "events/bodies.hpp"
 #include "events/flight/locator.hpp"
@@ -109,12 +108,12 @@ class FreeFlights {
   }
   static void put_on_wall(Body& b, int wall, Time now, const geometry::PreparedCurve::Arrival& at,
                           geometry::Vector velocity);
-  template <bool larmor>
+  template <bool larmor, bool cells>
   std::uint64_t apply_hits(int index, double t_end, std::uint64_t most, Observer& observer);
+  /// The flight begins at the body's state on a wall; it stays in its cell.
   void begin_off_joints(Body& b) const {
     const State& s = b.state;
-    PieceTable::begin_off_joints(b.flight, s.wall, pieces().curve(s.wall), s.u, s.position,
-                                 s.velocity);
+    PieceTable::put_on_wall(b.flight, s.wall, pieces().curve(s.wall), s.u, s.position, s.velocity);
   }
   static void put_on_edge(Body& b, Time now, const PieceTable::Landing& landing);
   /// At a wall of these pieces that the body does not pass. `first`: the number of their first wall
@@ -126,7 +125,7 @@ class FreeFlights {
 
   HitFinder finder_;
   bool over_edges_;
-  bool plain_;  ///< all walls are mirrors without holes, in one cell, and no forces act
+  bool plain_;  ///< all walls are mirrors without holes, and no forces act
   Bodies& bodies_;
   const ForceRegions& regions_;
   struct Scattering {
@@ -300,68 +299,6 @@ class FreeFlights {
     return false;
   }
   return meet(index, b, now, observer, pieces(), 0, landing);
-}
-
-/// Each number of the body is stored, as an observer may ask for it, but what the next hit needs is
-/// taken from local variables: it does not wait for what was just stored.
-template <bool larmor>
-[[gnu::noinline]] std::uint64_t FreeFlights::apply_hits(int index, double t_end, std::uint64_t most,
-                                                        Observer& observer) {
-  Body& b = bodies_[index];
-  struct Row {
-    FreeFlights& flights;
-    const int index;
-    Body& b;
-    std::uint64_t hits = 0;
-    ~Row() {  // also where an observer throws
-      if (hits == 0) return;
-      flights.begin_off_joints(b);
-      flights.schedule(index, b);
-    }
-  } row{*this, index, b};
-  // Without the processor's instruction, `apply` is as good.
-  while (row.hits < most && b.ahead.kind == Ahead::Kind::wall && base::fuses()) {
-    const double duration = b.ahead.duration;
-    const Time now = b.state.time + duration;
-    if (!(now.high < t_end) && now > Time(t_end)) break;
-    Flight flight;
-    flight.omega = larmor ? b.flight.omega : 0.0;
-    flight.square_speed = b.flight.square_speed;
-    flight.start = b.state.position;
-    flight.velocity = b.state.velocity;
-    const int wall = b.ahead.piece;
-    const geometry::PreparedCurve& curve = pieces().curve(wall);
-    geometry::Vector before;
-    geometry::PreparedCurve::Arrival at;
-    curve.arrive(PieceTable::end_of(flight, b.ahead, flight.start, before), before, at, b.ahead.u);
-    base::fuses_surely();
-    const geometry::Vector after = mirrored(b, before, at);
-    if (pieces().inward_off_joints(curve, after, at.normal) != Sign::positive ||
-        bodies_.next_reaches_limit(b))
-      break;
-    ++counts_.filter;
-    put_on_wall(b, wall, now, at, after);
-    const HitEvent& hit = bodies_.count_hit(index, b, b.state, before, duration, 1);
-    PieceTable::begin_off_joints(flight, wall, curve, at.u, at.point, after);
-    Ahead ahead;
-    base::fuses_surely();
-    if (finder_.next_in_convex(flight, ahead, counts_)) {
-      b.ahead = ahead;
-    } else {
-      begin_off_joints(b);
-      finder_.next_in_any(b.flight, b.ahead, counts_);
-    }
-    ++row.hits;
-    observer.hit(hit);
-  }
-  return row.hits;
-}
-
-inline std::uint64_t FreeFlights::apply_hits(int index, double t_end, std::uint64_t most,
-                                             Observer& observer) {
-  if (!plain_) return 0;
-  return bodies_[index].flight.omega != 0.0 ? apply_hits<true>(index, t_end, most, observer)
-                                            : apply_hits<false>(index, t_end, most, observer);
 }
 
 }  // namespace carom::events

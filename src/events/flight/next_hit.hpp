@@ -40,6 +40,8 @@ class HitFinder {
   /// That where discs stand in a lattice's cell and touch none of its edges: a straight flight is
   /// taken over some edges at once.
   void next_over_edges(Flight& flight, Ahead& ahead, DecisionCounts& counts);
+  /// The first half of this, where the filter can tell; else the flight is over some edges.
+  bool over_edges(Flight& flight, Ahead& ahead, DecisionCounts& counts) const;
 
  private:
   /// Sees the walls from the flight's start, in its cell. Number by number: a 16-byte copy of two
@@ -74,7 +76,6 @@ class HitFinder {
   Ahead exact_next(const Flight& flight, const std::vector<int>& pieces) const;
 
   // Convex tables (enclosed_hit.hpp and .cpp).
-  bool over_edges(Flight& flight, Ahead& ahead, DecisionCounts& counts) const;
   bool filtered_among_discs(const Flight& flight, Ahead& ahead) const;
   bool line_in_enclosure(const Flight& flight, Ahead& ahead) const;
   bool line_to(const Flight& flight, int wall, Ahead& ahead) const;

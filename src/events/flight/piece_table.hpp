@@ -45,7 +45,10 @@ struct PieceTable {
   /// The same where the caller has the wall's curve.
   void begin_on_wall(Flight& flight, int wall, const geometry::PreparedCurve& curve, double u,
                      geometry::Vector point, geometry::Vector velocity) const;
-  /// The same off the wall's joints, in a table without cells.
+  /// Sets the start alone, off the wall's joints.
+  static void put_on_wall(Flight& flight, int wall, const geometry::PreparedCurve& curve, double u,
+                          geometry::Vector point, geometry::Vector velocity);
+  /// A flight from there, where the point is surely in its own cell.
   static void begin_off_joints(Flight& flight, int wall, const geometry::PreparedCurve& curve,
                                double u, geometry::Vector point, geometry::Vector velocity);
   /// Is the start strictly inside the cell (or on its edge, see locate)?
@@ -250,19 +253,26 @@ struct PieceTable {
   f.entry = shared_->opposite[number];
 }
 
-[[gnu::always_inline]] inline void PieceTable::begin_off_joints(Flight& f, int wall,
-                                                                const geometry::PreparedCurve& w,
-                                                                double u, geometry::Vector point,
-                                                                geometry::Vector velocity) {
+[[gnu::always_inline]] inline void PieceTable::put_on_wall(Flight& f, int wall,
+                                                           const geometry::PreparedCurve& w,
+                                                           double u, geometry::Vector point,
+                                                           geometry::Vector velocity) {
   f.wall = wall;
   f.u = u;
   f.start = point;
   f.start_error = w.point_error;
   f.velocity = velocity;
+  f.start_previous = -1;
+}
+
+[[gnu::always_inline]] inline void PieceTable::begin_off_joints(Flight& f, int wall,
+                                                                const geometry::PreparedCurve& w,
+                                                                double u, geometry::Vector point,
+                                                                geometry::Vector velocity) {
+  put_on_wall(f, wall, w, u, point, velocity);
   f.cell.first = f.cell.second = 0;
   f.entry = -1;
   f.start_piece = wall;
-  f.start_previous = -1;
 }
 
 [[gnu::always_inline]] inline void PieceTable::begin_on_wall(Flight& f, int wall,

@@ -1,6 +1,7 @@
 // Survival probability and escape rate as exact counts.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -36,21 +37,46 @@ struct Replicate : GoneCounts {
   std::uint64_t followed = 0;
 };
 
+/// What is one number for all trajectories. A new one is added here, and nowhere else.
+struct SurvivalNumbers {
+  std::uint64_t most_hits = 0;
+  std::uint64_t fewest_hits_of_survivor = std::numeric_limits<std::uint64_t>::max();
+  double energy_change = 0.0;  ///< set by the ensemble
+
+  void note(Fate fate, std::uint64_t hits) {
+    most_hits = std::max(most_hits, hits);
+    if (fate == Fate::capped || fate == Fate::survived)
+      fewest_hits_of_survivor = std::min(fewest_hits_of_survivor, hits);
+  }
+};
+template <>
+struct Fields<SurvivalNumbers> {
+  using S = SurvivalNumbers;
+  static constexpr std::tuple list{
+      archived(joined(
+          Join::largest,
+          field("most_hits", "1", "Most reflections of a single trajectory", &S::most_hits))),
+      archived(joined(Join::least,
+                      field("fewest_hits_of_survivor", "1",
+                            "Fewest reflections of a survivor that is not pinned; 2^64 - 1: none",
+                            &S::fewest_hits_of_survivor))),
+      reported_if(&System::has_forces,
+                  joined(Join::largest,
+                         field("energy_change", "energy",
+                               "The largest change of a particle's energy", &S::energy_change)))};
+};
+
 /// Counts of an ensemble; merging is addition, so that order cannot matter.
 ///
 /// A trajectory is *gone* when it escaped or is unbounded. The cap on hits ends a trajectory while
 /// it is still there: it counts as a survivor at every time, and among those that survived.
-struct SurvivalCounts : EndCounts, GoneCounts {
+struct SurvivalCounts : EndCounts, GoneCounts, SurvivalNumbers {
   std::vector<double> times;  ///< report times, increasing
   EscapeTimes gone_at;        ///< gone_in in fine bins, at all times
   /// Hits of those that are gone, less one: a bin from a to b, both rounded up, counts those that
   /// were gone after more than a hits and at most b. One that is gone after one hit or none is in
   /// no bin.
   EscapeTimes gone_after;
-  /// The fewest hits of one that is still there at the end, except for pinned ones.
-  std::uint64_t fewest_hits_of_survivor = std::numeric_limits<std::uint64_t>::max();
-  std::uint64_t most_hits = 0;  ///< of a single trajectory
-  double energy_change = 0.0;   ///< the largest of a particle under forces; set by the ensemble
   /// Of quasi-random starts, which are not independent: the same counts of each replicate, whose
   /// spread tells the errors. Else empty.
   std::vector<Replicate> parts;
