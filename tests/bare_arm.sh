@@ -1,7 +1,7 @@
 # ./dev bare --arch arm64: a cross build against an arm64 Debian in FOLDER/root, run by qemu-user. Nothing of that Debian
 # is run to make it, so the kernel need not know of qemu. A FOLDER that was kept is gone on with.
 cross_packages=(cmake debootstrap g++-aarch64-linux-gnu help2man ninja-build python3 qemu-user-static)
-eval "$(sed -n '/^build_packages=(/,/)/p; /^python_packages=(/,/)/p' "$root/dev")"
+eval "$(packages_of_dev)"
 arm=$(realpath -m "$folder/root")
 made=$(realpath -m "$folder/build")
 

@@ -7,6 +7,9 @@ case $debian in
   *) die "no such Debian: $debian; 12 or 13" ;;
 esac
 
+# The lists of packages in ./dev.
+packages_of_dev() { awk '/^[a-z_]+_packages=\(/ { within = 1 } within; /\)/ { within = 0 }' "$root/dev"; }
+
 # Sets mirror, and sources: one line "URI suite component" for each place where this machine gets Debian from. Makes the
 # folder that holds FOLDER.
 find_mirror() {

@@ -1,7 +1,7 @@
 # ./dev bare --libcxx: clang with libc++, as on a Mac, in a minimal Debian: warnings are errors, and every test runs.
 declare -A clang_of=([12]=16 [13]=19)
 clang=${clang_of[$debian]}
-eval "$(sed -n '/^python_packages=(/,/)/p; /^python_test_packages=(/,/)/p' "$root/dev")"
+eval "$(packages_of_dev)"
 
 say "./dev setup, clang-$clang"
 inside ./dev setup </dev/null
