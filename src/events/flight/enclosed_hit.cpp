@@ -1,5 +1,4 @@
-// Straight flights among the discs of a convex table, or of the cell of a lattice, that holds
-// nothing else.
+// Straight flights among discs in a convex table, and where the joints tell the exit.
 #include "events/flight/next_hit.hpp"
 
 #include <cmath>

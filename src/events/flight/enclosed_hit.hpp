@@ -1,5 +1,5 @@
-// Flights in a convex table without obstacles: the frequent case, in which signs alone name the
-// wall.
+// Flights in a convex table without obstacles, and from cell to cell among discs: the frequent
+// cases, in which signs alone name the wall.
 #pragma once
 
 #include <cmath>
