@@ -70,6 +70,22 @@ bool ErrorEdges::same_arrival(const Particle& particle, const State& start, cons
          dot(away, away) <= farthest * farthest;
 }
 
+bool ErrorEdges::surely_same_arrival(const Particle& particle, const HitEvent& hit,
+                                     double error) const {
+  constexpr double far = 1024;   // errors from a joint, so that a neighbour is not beyond it
+  constexpr double steep = 512;  // at most this many times as long is the way along the wall
+  const PieceTable& pieces = finder_.pieces();
+  if (particle.omega != 0.0 || !pieces.convex || !table_.holes.empty()) return false;
+  const Vector turn = hit.after - hit.before;
+  if (!(steep * steep * dot(turn, turn) > 4.0 * dot(hit.after, hit.after))) return false;
+  const geometry::PreparedCurve& wall = pieces.curve(hit.wall);
+  const auto is_far = [&](Vector joint) {
+    const Vector way = hit.position - joint;
+    return dot(way, way) > far * far * error * error;
+  };
+  return wall.closed || (is_far(wall.from) && is_far(wall.to));
+}
+
 bool ErrorEdges::same_hole(const Particle& particle, const State& start, const Deviation& d,
                            int hole, double latest) {
   PieceTable::Landing landing;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "carom/events/decisions.hpp"
+#include "carom/events/event.hpp"
 #include "carom/motion/state.hpp"
 #include "carom/motion/tangent.hpp"
 #include "events/flight/next_hit.hpp"
@@ -25,6 +26,9 @@ class ErrorEdges {
   /// farther than `farthest` from there, beside its holes, and after at most `latest`?
   bool same_arrival(const Particle&, const State& start, const Deviation& d, const Arrival&,
                     double farthest, double latest);
+  /// Is that certain without a flight, if the error of the point is so small? A straight flight in
+  /// a convex table that arrives between the joints of a wall has met no other.
+  bool surely_same_arrival(const Particle&, const HitEvent&, double error) const;
   /// Does it leave through that hole?
   bool same_hole(const Particle&, const State& start, const Deviation& d, int hole, double latest);
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/fused_pair.hpp"
 #include "certify/flight/larmor_circle.hpp"
 #include "certify/wall/start.hpp"
 
@@ -49,8 +50,12 @@ TwofoldVector exactly(Vector v) { return {v.x, v.y}; }
 
 }  // namespace
 
-std::optional<OrbitError> error_after(const WrittenSystem& system, const State& before,
-                                      const OrbitError& error, const HitEvent& hit) {
+namespace {
+
+[[gnu::always_inline]] inline std::optional<OrbitError> error_beyond(const WrittenSystem& system,
+                                                                     const State& before,
+                                                                     const OrbitError& error,
+                                                                     const HitEvent& hit) {
   const certify::WallOf<Twofold>& wall = system.table.walls[static_cast<std::size_t>(hit.wall)];
   TwofoldVector start = exactly(before.position) + exactly(error.position);
   const TwofoldVector velocity = exactly(before.velocity) + exactly(error.velocity);
@@ -86,6 +91,17 @@ std::optional<OrbitError> error_after(const WrittenSystem& system, const State& 
                       ((duration + Twofold(late)) + (Twofold(error.time) - engine)).value()};
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+// All in one function: else each product asks if the processor fuses.
+[[gnu::flatten]] std::optional<OrbitError> error_after(const WrittenSystem& system,
+                                                       const State& before, const OrbitError& error,
+                                                       const HitEvent& hit) {
+  if (!base::fuses()) return error_beyond(system, before, error, hit);
+  base::fuses_surely();
+  return error_beyond(system, before, error, hit);
 }
 
 OrbitError error_of_start(const WrittenSystem& system, const State& start, bool first_particle) {

@@ -102,16 +102,18 @@ bool TrustRecorder::Implementation::hit(Track& track, const HitEvent& event) {
   // At a joint the least error decides which wall it is.
   if (event.u == 0.0 || event.reflections != 1) return false;
   const Particle& particle = track.particle;
-  const ErrorEdges::Arrival arrival{event.wall, event.cell, event.position};
-  // A tolerance may be finer than the roundings by which edges are displaced.
-  const double farthest = (tolerance + 16.0 * geometry::unit_roundoff) * size;
-  if (!edges.same_arrival(particle, track.state, edge_of(track), arrival, farthest,
-                          latest(particle, event.flight_time)))
-    return false;
-
   const std::optional<OrbitError> e =
       error_after(*track.system, track.state, track.trust.error, event);
   if (!e) return false;
+  const ErrorEdges::Arrival arrival{event.wall, event.cell, event.position};
+  // A tolerance may be finer than the roundings by which edges are displaced.
+  const double roundings = 16.0 * geometry::unit_roundoff * size,
+               farthest = tolerance * size + roundings;
+  if (!edges.surely_same_arrival(particle, event, length_of(e->position) + roundings) &&
+      !edges.same_arrival(particle, track.state, edge_of(track), arrival, farthest,
+                          latest(particle, event.flight_time)))
+    return false;
+
   const auto within = [](double error, double bound) { return margin * error <= bound; };
   if (!(within(length_of(e->position), tolerance * size) &&
         within(std::fabs(e->time) * particle.speed, tolerance * size) &&

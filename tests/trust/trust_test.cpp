@@ -132,6 +132,36 @@ const Case systems[] = {
     {"mushroom", mushroom(1.0, 0.5, 1.0)},
     {"lorentz", lorentz(first, second), 0.0, TrustRecorder::usual_tolerance, 200, true, copies(10)},
 };
+// A hole that hardly any orbit meets: beside it a neighbour is flown to each hit.
+Trust trust_of(Table table, const State& start, bool with_hole) {
+  if (with_hole) {
+    table.holes.push_back({"hole", 0, 0.5, 0.5 + 0x1p-45});
+    table.walls[0].holes.push_back(0);
+  }
+  World world(table);
+  world.limit_hits(1000);
+  world.add(Particle{}, start);
+  TrustRecorder trust(table);
+  trust.follow(Particle{}, start, 0);
+  world.run_until(1e6, trust);
+  return trust.trust(0);
+}
+
+TEST(Trust, NeedsNoNeighbourWhereNoJointIsNear) {
+  Dice dice(11);
+  for (const Table& table : {square(), stadium(), disc(1.0)})
+    for (long i = 0; i < cases(150, 1500); ++i) {
+      State start;
+      start.position = {dice.between(0.0, 0.7), dice.between(0.0, 0.7)};
+      start.velocity = dice.direction();
+      const Trust alone = trust_of(table, start, false), beside = trust_of(table, start, true);
+      ASSERT_EQ(alone.hits, beside.hits) << i;
+      EXPECT_EQ(alone.open, beside.open);
+      EXPECT_EQ(alone.error.position, beside.error.position);
+      EXPECT_EQ(alone.error.time, beside.error.time);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Systems, Trusted, testing::ValuesIn(systems),
                          [](const auto& which) { return std::string(which.param.name); });
 
