@@ -1,6 +1,13 @@
 #include "carom/starts/start_measure.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/index.hpp"
+#include "carom/base/elementary.hpp"
+#include "carom/events/medium.hpp"
 
 namespace carom {
 
@@ -20,7 +27,54 @@ bool on_all_walls(const System& system) {
          (initial.walls.empty() || initial.walls.size() == system.table->walls.size());
 }
 
+// Is the fraction that is mirrored the same from either side, as rays run backwards? `n`: the
+// momentum behind the edge over that before it.
+bool is_balanced(const TypedExpression& fraction, double n) {
+  constexpr int angles = 64;
+  for (int k = 1; k < angles; ++k) {
+    const double sine = elementary::sin(0.5 * std::numbers::pi * k / angles);
+    // On the side with the larger momentum directions beyond the critical one are mirrored anyway.
+    const double beyond = n < 1.0 ? sine : sine / n, before = n < 1.0 ? sine * n : sine;
+    const double to = elementary::atan2(beyond, std::sqrt((1.0 - beyond) * (1.0 + beyond))),
+                 from = elementary::atan2(before, std::sqrt((1.0 - before) * (1.0 + before)));
+    const double there = fraction.value(std::array{from, to, n}),
+                 back = fraction.value(std::array{to, from, 1.0 / n});
+    constexpr double roundings = 1e-9;
+    if (!(std::fabs(there - back) <= roundings)) return false;
+  }
+  return true;
+}
+
+// Of all edges between regions.
+bool all_are_balanced(const System& system) {
+  const Table& table = *system.table;
+  for (int w = 0; w < static_cast<int>(table.walls.size()); ++w) {
+    if (!is_passed(table.wall(w)) || !is_inner_side(table, w)) continue;
+    const int within = region_of(table, w), outside = region_of(table, table.wall(w).twin);
+    const Region& region = table.regions[base::at(within)];
+    if (!region.fraction) continue;
+    for (const Particle& particle : system.particles) {
+      const double here = momentum_in(table, particle, outside),
+                   there = momentum_in(table, particle, within);
+      if (here > 0.0 && there > 0.0 && !is_balanced(*region.fraction, there / here)) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
+
+std::string why_not_uniform(const System& system) {
+  const Table& table = *system.table;
+  if (is_thermal(table)) return "walls change the speeds";
+  for (const Wall& wall : table.walls)
+    if (wall.roughness > 0.0) return "rough walls keep no uniform density";
+  for (const Region& region : table.regions)
+    if (region.index != 1.0) return "they are uniform where a refractive index differs";
+  if (!all_are_balanced(system))
+    return "an edge mirrors more on one side than on the other, on the way back";
+  return {};
+}
 
 std::string why_not_stationary(const System& system) {
   if (!system.injections.empty()) return "particles enter during the run";
@@ -43,9 +97,7 @@ std::string why_not_stationary(const System& system) {
       return "they are listed";
   }
   if (lets_go(*system.table)) return "particles leave";
-  if (is_thermal(*system.table)) return "walls change the speeds";
-  for (const Region& region : system.table->regions)
-    if (region.index != 1.0) return "they are uniform where a refractive index differs";
+  if (std::string why = why_not_uniform(system); !why.empty()) return why;
   if (!system.has_forces()) return {};
   const ForceField& forces = *system.dynamics.forces;
   if (system.particles.size() > 1 && (system.of_discs() || forces.interacts()))

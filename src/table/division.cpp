@@ -148,7 +148,14 @@ class Division {
 
   /// An obstacle gets walls within.
   void enter(const RegionSpec& one, int region) {
-    const int named = walls_named(one.wall, one.wall_place, table_).front();
+    const std::vector<int> all = walls_named(one.wall, one.wall_place, table_);
+    const int named = all.front();
+    for (const int k : all)
+      if (ring_of_[at(k)] != ring_of_[at(named)])
+        throw InputError(
+            one.wall_place,
+            "the walls '" + one.wall + "_1', '" + one.wall + "_2' … belong to several obstacles",
+            "a region for each obstacle");
     const std::vector<int> loop = walls_from(named, named);
     if (wall(named).twin >= 0)
       throw InputError(one.wall_place, "wall '" + one.wall + "' bounds another region already",

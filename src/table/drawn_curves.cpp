@@ -185,6 +185,9 @@ class Drawing {
     try {
       return errors_of(piece, off);
     } catch (const std::invalid_argument&) {
+      if (a.at == curve_.from)
+        refuse("the curve has a cusp beside its start, where its derivative is not 0 in doubles,",
+               a.at);
       refuse("the curve has a cusp, which only its start can be,", a.at);
     }
   }

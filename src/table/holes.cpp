@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "table/numbers.hpp"
 #include "table/shapes.hpp"
@@ -9,16 +10,15 @@
 namespace carom::table::shapes {
 namespace {
 
-// The length of a wall is a rounded number, while an end written as "pi" is not: ends that agree
-// with the wall's to rounding mean the wall's.
-bool beyond(double s, double length) {
-  return s > length * (1 + 4 * std::numeric_limits<double>::epsilon());
-}
-
-/// Has a wall the name and a number, as in NAME_12?
-bool is_numbered(const std::string& wall, const std::string& name) {
+/// Has a wall the name and a number, as in NAME_12, or NAME_12.inside where the name has that end?
+bool is_numbered(std::string_view wall, std::string_view name) {
+  constexpr std::string_view inside = ".inside";
+  if (name.ends_with(inside) && wall.ends_with(inside)) {
+    wall.remove_suffix(inside.size());
+    name.remove_suffix(inside.size());
+  }
   return wall.size() > name.size() + 1 && wall.starts_with(name) && wall[name.size()] == '_' &&
-         wall.find_first_not_of("0123456789", name.size() + 1) == std::string::npos;
+         wall.find_first_not_of("0123456789", name.size() + 1) == std::string_view::npos;
 }
 
 class Opening {
@@ -35,6 +35,8 @@ class Opening {
                          "a hole of another wall");
       starts_.push_back(starts_.back() + geometry::length(wall(k).curve));
     }
+    rounding_ = static_cast<double>(4 + walls_.size()) * std::numeric_limits<double>::epsilon() *
+                starts_.back();
   }
 
   void cut() {
@@ -53,14 +55,15 @@ class Opening {
       throw InputError(hole_.center.place(), "the hole's center is not on the wall",
                        "an arc length from 0 to " + ExactNumber(length).text());
     }
-    const bool closed = wall(walls_.back()).next == walls_.front();
+    const bool closed = geometry::start_point(wall(walls_.front()).curve) ==
+                        geometry::end_point(wall(walls_.back()).curve);
     if (!closed && (from < 0 || beyond(to, length))) {
       throw InputError(hole_.center.place(),
                        "the hole reaches over the end of its wall '" + hole_.wall + "'",
                        "a hole within 0 … " + ExactNumber(length).text() + " of arc length");
     }
     const std::size_t before = table_.holes.size();
-    if (closed && to - from >= length) {
+    if (closed && !beyond(length, to - from)) {
       add(0.0, length);  // all of it, wherever it begins
     } else if (from < 0) {
       add(length + from, length);
@@ -69,7 +72,7 @@ class Opening {
       add(from, length);
       add(0.0, to - length);
     } else {
-      add(from, to);
+      add(from, beyond(length, to) ? to : length);
     }
     if (table_.holes.size() == before)
       throw InputError(hole_.width.place(), "the hole is too narrow for double precision",
@@ -77,6 +80,9 @@ class Opening {
   }
 
  private:
+  // The length of a wall is a sum of rounded numbers, while an end written as "pi" is not: ends
+  // that agree with the wall's to rounding mean the wall's.
+  bool beyond(double s, double end) const { return s > end + rounding_; }
   Wall& wall(int index) const { return table_.walls[static_cast<std::size_t>(index)]; }
   /// What lies on each wall between two arc lengths along all of them.
   void add(double from, double to) {
@@ -100,6 +106,7 @@ class Opening {
   Table& table_;
   const std::vector<int> walls_;
   std::vector<double> starts_;  ///< arc lengths at which the walls begin, and the last one ends
+  double rounding_ = 0.0;       ///< of the last one
 };
 
 }  // namespace
@@ -131,15 +138,27 @@ std::vector<int> stretch_named(const std::string& name, const Place& place, cons
   std::vector<bool> marked(table.walls.size());
   for (const int k : named) marked[static_cast<std::size_t>(k)] = true;
   const auto among = [&](int wall) { return wall >= 0 && marked[static_cast<std::size_t>(wall)]; };
+  // The next one of the name, -1: none. An edge of a region may have parted them since they were
+  // drawn; their ends are still the same point.
+  const auto behind = [&](int wall) {
+    if (among(table.wall(wall).next)) return table.wall(wall).next;
+    const geometry::Vector end = geometry::end_point(table.wall(wall).curve);
+    for (const int k : named)
+      if (geometry::start_point(table.wall(k).curve) == end) return k;
+    return -1;
+  };
   // All round it begins where the numbers do: the walls of obstacles run the other way.
   const int one = table.wall_index(name + "_1"), two = table.wall_index(name + "_2");
   int first = among(one) ? one : named.front();
-  if (first == one && two >= 0 && table.wall(one).next != two) first = table.wall(one).next;
+  if (first == one && two >= 0 && behind(one) != two && behind(one) >= 0) first = behind(one);
   // Else it begins where nothing of the name comes before.
+  std::vector<bool> follows(table.walls.size());
   for (const int k : named)
-    if (!among(table.wall(k).previous)) first = k;
+    if (const int next = behind(k); next >= 0) follows[static_cast<std::size_t>(next)] = true;
+  for (const int k : named)
+    if (!follows[static_cast<std::size_t>(k)]) first = k;
   std::vector<int> walls{first};
-  for (int k = table.wall(first).next; k != first && among(k); k = table.wall(k).next)
+  for (int k = behind(first); k != first && k >= 0 && walls.size() < named.size(); k = behind(k))
     walls.push_back(k);
   if (walls.size() < named.size())
     throw InputError(place,

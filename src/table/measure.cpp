@@ -13,7 +13,8 @@ TableMeasure measure(const Table& table) {
     result.perimeter += geometry::length(wall.curve);
   }
   result.area = table.extent == Extent::open_plane ? std::numeric_limits<double>::infinity() : area;
-  result.mean_flight = pi * result.area / result.perimeter;
+  result.mean_flight = regions_change_speeds(table) ? std::numeric_limits<double>::quiet_NaN()
+                                                    : pi * result.area / result.perimeter;
   return result;
 }
 

@@ -1,4 +1,6 @@
 // The parts of a table that was divided into regions.
+#include <algorithm>
+
 #include "base/index.hpp"
 #include "carom/table/table.hpp"
 
@@ -32,6 +34,11 @@ Table seen_from(const Table& table, int region) {
     wall.previous -= r.first;
   }
   return seen;
+}
+
+bool regions_change_speeds(const Table& table) {
+  return std::any_of(table.regions.begin(), table.regions.end(),
+                     [](const Region& r) { return r.index != 1.0 || r.potential != 0.0; });
 }
 
 bool is_inner_side(const Table& table, int wall) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "carom/analyses/diffusion.hpp"
 #include "carom/analyses/escape.hpp"
 #include "carom/analyses/lyapunov.hpp"
 #include "carom/base/error.hpp"
@@ -330,6 +331,74 @@ TEST(Regions, OfAnIndexAreNotFilledUniformly) {
   };
   EXPECT_NE(why("index = 1.5\n").find("index"), std::string::npos);
   EXPECT_EQ(why("potential = 0.2\nB = 1\n"), "");
+  // With a formula for what is mirrored, only if it is the same on the way back.
+  EXPECT_EQ(why("potential = 0.2\nreflection = \"s\"\n"), "");
+  EXPECT_EQ(why("potential = 0.2\nreflection = \"(incidence - refraction)^2\"\n"), "");
+  EXPECT_EQ(why("B = 1\nreflection = \"0.3 + 0.1*incidence\"\n"), "");
+  EXPECT_NE(why("potential = 0.2\nreflection = \"0.95/(1 + n^16)\"\n"), "");
+  EXPECT_NE(why("potential = 0.2\nreflection = \"0.1*incidence\"\n"), "");
+}
+
+/// The fraction of the time that is spent in a half of a table agrees with what is said of it.
+TEST(Regions, ThatMirrorMoreOnOneSideEmptyTheOther) {
+  const auto inside = [](const std::string& reflection) {
+    const System system = system_of(
+        "[table]\nshape = \"polygon\"\npoints = [[0, 0], [2, 0], [4, 0], [4, 2], [2, 2], [0, 2]]\n"
+        "[[table.region]]\nstart = [2, 2]\npieces = [{line_to = [2, 0]}]\npotential = 0.3\n"
+        "reflection = \"" +
+        reflection + "\"\n[initial]\nkind = \"uniform\"\n[run]\nt_max = 60\ntrajectories = 1000\n");
+    const Hits seen = hits_of(system);
+    double there = 0.0;
+    for (const std::size_t end : seen.ends) there += seen.rows[end - 1].region_before >= 0;
+    return std::pair(there / 1000.0, why_not_stationary(system));
+  };
+  const auto [balanced, nothing] = inside("0.5");
+  EXPECT_EQ(nothing, "");
+  const auto [emptied, why] = inside("0.95/(1 + n^16)");
+  EXPECT_NE(why, "");
+  EXPECT_LT(emptied, balanced - 0.15);
+}
+
+TEST(Regions, OfANumberedWallAreOneObstacle) {
+  const std::string discs =
+      "[table]\nshape = \"random-discs\"\nside = 4\nradius = 0.3\ncount = 5\nseed = 1\n"
+      "[[table.region]]\nindex = 1.5\nwall = ";
+  EXPECT_NO_THROW(system_of(discs + "\"disc_2\"\n"));
+  EXPECT_THROW(system_of(discs + "\"disc\"\n"), InputError);
+  const System polar = system_of(box(
+      "name = \"d\"\nshape = \"polar\"\nradius = \"0.3\"\ncenter = [1, 0.5]\n",
+      "wall = \"d\"\nindex = 1.5\n", "[[table.wall]]\nwall = \"d.inside\"\nlaw = \"diffuse\"\n"));
+  for (const Wall& wall : polar.table->walls)
+    EXPECT_EQ(wall.specularity, wall.name.starts_with("d_") ? 0.0 : 1.0) << wall.name;
+}
+
+/// A cut from corner to corner leaves the sides of a polygon one after the other, as drawn.
+TEST(Regions, DoNotPartTheNamesOfWalls) {
+  const System system = system_of(
+      "[table]\nshape = \"polygon\"\npoints = [[0, 0], [2, 0], [4, 0], [4, 2], [2, 2], [0, 2]]\n"
+      "[[table.hole]]\nwall = \"side\"\ncenter = 2\nwidth = 1\n"
+      "[[table.region]]\nstart = [2, 2]\npieces = [{line_to = [2, 0]}]\nB = 1\n");
+  ASSERT_EQ(system.table->holes.size(), 2u);
+  EXPECT_EQ(system.table->wall(system.table->holes[0].wall).name, "side_1");
+  EXPECT_EQ(system.table->holes[0].from, 0.75);
+  EXPECT_EQ(system.table->wall(system.table->holes[1].wall).name, "side_2");
+  EXPECT_EQ(system.table->holes[1].to, 0.25);
+}
+
+TEST(Regions, ThatChangeSpeedsHaveNoMeanFlight) {
+  const auto of = [](const std::string& region) { return system_of(box(disc, of_disc + region)); };
+  EXPECT_TRUE(std::isnan(measure(*of("index = 1.5\n").table).mean_flight));
+  EXPECT_TRUE(std::isnan(measure(*of("potential = -1\n").table).mean_flight));
+  System field = of("B = 1\n"), index = of("index = 1.5\n");
+  EXPECT_GT(measure(*field.table).mean_flight, 0.0);
+  for (System* system : {&field, &index}) {
+    system->run.t_max = 10;
+    system->run.times = {5, 10};
+    system->run.trajectories = 2;
+    system->run.free_paths = true;
+  }
+  EXPECT_NO_THROW(run_diffusion(field));
+  EXPECT_THROW(run_diffusion(index), InputError);
 }
 
 TEST(Regions, GiveOneDigestHoweverTheWorkIsShared) {

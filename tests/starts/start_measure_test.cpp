@@ -38,6 +38,9 @@ TEST(StartMeasure, IsStationaryWhereNothingIsLeftOut) {
   const std::string well = "[[potential]]\nkind = \"harmonic\"\nomega = 1\n";
   EXPECT_EQ(why(uniform, well + "[particles]\nenergy = 3\n"), "");
   EXPECT_NE(why(uniform, well + "[particles]\nspeed = 1\n"), "");
+  const std::string law = "[[table.wall]]\nwall = \"top\"\nlaw = ";
+  EXPECT_EQ(why(uniform, law + "\"diffuse\"\n"), "");
+  EXPECT_NE(why(uniform, law + "\"rough\"\nangle = \"60 deg\"\n"), "");
   const std::string charges =
       "[interaction]\nkind = \"coulomb\"\nstrength = 1\n[particles]\nenergy = 3\ncount = ";
   EXPECT_EQ(why(uniform, charges + "1\n"), "");

@@ -12,6 +12,8 @@ const TableSpec square = shape("rectangle", {{"width", "1"}, {"height", "1"}});
 const TableSpec circle = shape("circle", {{"radius", "1"}});
 const TableSpec ellipse = shape("ellipse", {{"a", "1"}, {"b", "3/4"}});
 
+std::size_t base_of(const Hole& hole) { return static_cast<std::size_t>(hole.wall); }
+
 double length_to(const Table& table, const Hole& hole, double u) {
   const geometry::Curve& curve = table.walls[static_cast<std::size_t>(hole.wall)].curve;
   return geometry::arc_length_at(curve, u);
@@ -77,6 +79,24 @@ TEST(Holes, MayFillTheirWall) {
   ASSERT_EQ(all.holes.size(), 1u);
   EXPECT_EQ(all.holes[0].from, 0.0);
   EXPECT_EQ(all.holes[0].to, 4.0);
+}
+
+/// Lengths of many pieces are sums of rounded numbers, those in a system file are not.
+TEST(Holes, MayFillAWholeCurveOrItsHalves) {
+  const TableSpec cardioid = shape("cardioid", {{"radius", "1"}});
+  const Table all = build_table(with_hole(cardioid, "curve", "4", "8"));
+  ASSERT_EQ(all.holes.size(), all.walls.size());
+  for (const Hole& hole : all.holes) {
+    EXPECT_EQ(hole.from, 0.0);
+    EXPECT_EQ(hole.to, geometry::end_parameter(all.walls[base_of(hole)].curve));
+  }
+  const Table halves =
+      build_table(with_hole(with_hole(cardioid, "curve", "2", "4"), "curve", "6", "4"));
+  EXPECT_EQ(hole_names(halves).size(), 2u);
+  EXPECT_EQ(halves.holes.back().to, geometry::end_parameter(halves.walls.back().curve));
+  EXPECT_TRUE(is_legal(with_hole(cardioid, "curve", "8", "0.1")));
+  EXPECT_FALSE(is_legal(with_hole(cardioid, "curve", "4", "8.000001")));
+  EXPECT_FALSE(is_legal(with_hole(cardioid, "curve", "8.000001", "0.1")));
 }
 
 TEST(Holes, WrapPastTheStartOfAClosedCurve) {

@@ -20,6 +20,10 @@ namespace carom {
 /// two of them that is not the microcanonical ensemble any more. Where particles leave, those that
 /// stay have no invariant measure of starts that could be drawn.
 std::string why_not_stationary(const System&);
+/// The part of this that is due to walls and regions: why they do not keep uniform positions and
+/// directions of free particles, "" if they do. Whether a formula for `reflection` has a detailed
+/// balance is decided by its values at 63 angles.
+std::string why_not_uniform(const System&);
 
 /// Do free particles start from all walls of a closed table by the cosine law? That is the natural
 /// measure of the map from hit to hit. Along the flow it counts each flight once, and time counts

@@ -104,11 +104,14 @@ bool is_inner_side(const Table&, int wall);
 bool scatters(const Table&);
 /// Do walls change the speeds of particles?
 bool is_thermal(const Table&);
-/// Throws InputError if they do, or if particles pass some. `what`: cannot be had with such walls.
+/// Do its regions, because of an index or a potential?
+bool regions_change_speeds(const Table&);
+/// Throws InputError if walls do, or if particles pass some. `what`: cannot be had with such walls.
 void refuse_all_but_mirrors(const Table&, const char* what);
 
 /// Area of the domain (of one cell for a lattice; infinity for the open plane), total length of the
-/// walls, and the mean flight pi A / L of the closed billiard without field.
+/// walls, and the mean flight pi A / L of the closed billiard without field; NaN where regions
+/// change speeds, for then it is another one in each.
 struct TableMeasure {
   double area = 0.0, perimeter = 0.0, mean_flight = 0.0;
 };

@@ -41,6 +41,10 @@ void refuse_impossible(const System& system) {
     throw InputError(Place{"", 0, 0, "table.wall"},
                      "walls change the speeds, and lengths of flights count one speed",
                      "another law than \"thermal\"");
+  if (system.run.free_paths && regions_change_speeds(*system.table))
+    throw InputError(Place{"", 0, 0, "run.free_paths"},
+                     "regions change the speeds, and lengths of flights count one speed",
+                     "regions without an index or a potential");
   if (system.run.free_paths && system.is_integrated())
     throw InputError(Place{"", 0, 0, "run.free_paths"},
                      "flights are free between hits of walls alone, and other forces act",

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analyses/diffusion/report.hpp"
+#include "carom/starts/start_measure.hpp"
 #include "carom/table/table.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
@@ -16,10 +17,12 @@ using files::Json;
 
 namespace {
 
-// pi area / perimeter, where every particle can come to a wall.
+// pi area / perimeter, where every particle can come to a wall and walls keep uniform positions.
 std::optional<double> expected_mean(const System& system, const DiffusionResult& result) {
   const double mean = measure(*system.table).mean_flight;
-  if (result.pinned > 0 || result.capped > 0 || !std::isfinite(mean)) return std::nullopt;
+  if (result.pinned > 0 || result.capped > 0 || !std::isfinite(mean) ||
+      !why_not_uniform(system).empty())
+    return std::nullopt;
   return mean;
 }
 

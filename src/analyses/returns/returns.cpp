@@ -204,7 +204,7 @@ std::optional<ExpectedReturns> expected_returns(const System& as_written) {
     return std::nullopt;
   const TableMeasure m = measure(*system.table);
   const double length = geometry::length(system.table->wall(system.section.wall).curve);
-  if (!std::isfinite(m.mean_flight)) return std::nullopt;
+  if (!std::isfinite(m.mean_flight)) return std::nullopt;  // where regions change speeds, too
   return ExpectedReturns{m.mean_flight * m.perimeter / (length * speed), m.perimeter / length};
 }
 

@@ -62,7 +62,9 @@ Json holes_json(const TableSpec& spec) {
 constexpr std::size_t most_walls = 15;  // of the text
 
 std::string number(double value) {
-  return std::isinf(value) ? "infinite" : fmt::format("{:.12g}", value);
+  return std::isinf(value)   ? "infinite"
+         : std::isnan(value) ? "none for all: regions change speeds"
+                             : fmt::format("{:.12g}", value);
 }
 
 }  // namespace

@@ -179,7 +179,8 @@ InitialCondition read_initial(Value& root, const Table& table,
   switch (initial.kind) {
     case Kind::uniform:
     case Kind::sobol:
-      if (table.extent == Extent::open_plane) {
+      // Where nothing was written, only what flies needs starts (Sampler).
+      if (table.extent == Extent::open_plane && section.get("kind").place.line > 0) {
         throw InputError(section.get("kind").place, "the open plane has no uniform distribution",
                          "kind = \"boundary\", \"rectangle\" or another");
       }
