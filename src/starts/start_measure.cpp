@@ -72,7 +72,7 @@ std::string why_not_uniform(const System& system) {
   for (const Region& region : table.regions)
     if (region.index != 1.0) return "they are uniform where a refractive index differs";
   if (!all_are_balanced(system))
-    return "an edge mirrors more on one side than on the other, on the way back";
+    return "an edge mirrors another fraction of the hits on the way back";
   return {};
 }
 

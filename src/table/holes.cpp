@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string_view>
 
 #include "table/numbers.hpp"
@@ -35,8 +36,10 @@ class Opening {
                          "a hole of another wall");
       starts_.push_back(starts_.back() + geometry::length(wall(k).curve));
     }
+    // A convex curve that is displaced by so much is longer by 2 pi times that.
     rounding_ = static_cast<double>(4 + walls_.size()) * std::numeric_limits<double>::epsilon() *
-                starts_.back();
+                    starts_.back() +
+                2.0 * std::numbers::pi * table.curve_errors.distance;
   }
 
   void cut() {
@@ -80,8 +83,8 @@ class Opening {
   }
 
  private:
-  // The length of a wall is a sum of rounded numbers, while an end written as "pi" is not: ends
-  // that agree with the wall's to rounding mean the wall's.
+  // The length of a wall is a sum of rounded numbers, and that of pieces of a curve, while an end
+  // written as "pi" is not: ends that agree with the wall's to rounding mean the wall's.
   bool beyond(double s, double end) const { return s > end + rounding_; }
   Wall& wall(int index) const { return table_.walls[static_cast<std::size_t>(index)]; }
   /// What lies on each wall between two arc lengths along all of them.

@@ -57,6 +57,14 @@ speed = 2.5
 [initial]
 )";
 
+/// A table alone is a system, for `carom table`; what flies needs starts.
+TEST(Sampler, OfTheOpenPlaneNeedsAKindOfStart) {
+  const std::string discs = "[table]\nshape = \"discs\"\ncenters = [[0, 0]]\nradius = 1\n";
+  const System system = make_system(discs);
+  EXPECT_THROW(Sampler{system}, InputError);
+  EXPECT_THROW(make_system(discs + "[initial]\nkind = \"uniform\"\n"), InputError);
+}
+
 TEST(Sampler, UniformFillsTheTableByArea) {
   const Drawn draw(std::string(mushroom) + "kind = \"uniform\"");
   int stem = 0;
