@@ -32,6 +32,8 @@ diffusion lorentz-triangular --trajectories 2000 --t-max 100
 lyapunov henon-heiles --trajectories 10 --t-max 100
 run ellipse-magnetic --collisions 20000
 run henon-heiles --t-max 100
+run circle --closed --set table.shape=cardioid --collisions 3000
+run circle --closed --set table.shape=cardioid --set field.B=0.4 --collisions 3000
 run stadium --closed --precision certified --digits 20 --collisions 200
 section henon-heiles --orbits 4 --points 50 --set section.on="x=0"
 COMMANDS

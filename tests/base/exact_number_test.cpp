@@ -145,8 +145,8 @@ TEST(ExactNumber, ADoubleIsTakenExactly) {
     ASSERT_EQ(exact.to_double(), x);
     ASSERT_EQ(number(exact.text()).to_double(), x) << exact.text();
   }
-  EXPECT_THROW(ExactNumber(std::numeric_limits<double>::infinity()), InputError);
-  EXPECT_THROW(ExactNumber(std::numeric_limits<double>::quiet_NaN()), InputError);
+  EXPECT_THROW(ExactNumber{std::numeric_limits<double>::infinity()}, InputError);
+  EXPECT_THROW(ExactNumber{std::numeric_limits<double>::quiet_NaN()}, InputError);
 }
 
 // The messages are in tests/cli/messages.txt.

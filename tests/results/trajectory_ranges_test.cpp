@@ -83,7 +83,7 @@ TEST(TrajectoryRanges, GapsStayInsideAShard) {
 
 TEST(Shard, OfRangesCoversThemOnce) {
   const std::vector<TrajectoryRange> all{{3, 10}, {12, 13}, {20, 26}};
-  for (const std::uint64_t of : {1, 2, 3, 5, 14, 40}) {
+  for (const std::uint64_t of : {1u, 2u, 3u, 5u, 14u, 40u}) {
     std::uint64_t sum = 0, at = 0;
     for (std::uint64_t k = 1; k <= of; ++k) {
       const TrajectoryRange part = shard(k, of, all);
