@@ -277,7 +277,7 @@ void expect_same_orbits(const Table& curve, const Table& conic, double growth, d
   World one(curve), other(conic);
   for (auto [world, seen] : {std::pair{&one, &a}, std::pair{&other, &b}}) {
     world->add(particle(omega), start({0.3, 0.1}, {0.6, 0.8}));
-    world->limit_hits(static_cast<std::int64_t>(count));
+    world->limit_hits(static_cast<std::uint64_t>(count));
     world->run_until(1e300, *seen);
   }
   ASSERT_EQ(a.hits.size(), count);

@@ -120,8 +120,8 @@ TEST(CurvesInSteps, ConicsWrittenAsCurvesHaveTheirOrbits) {
 const char* const shapes[] = {"shape = \"limacon\"\nradius = 1\nepsilon = 0.5\n",
                               "shape = \"cardioid\"\nradius = 1\n",
                               "shape = \"superellipse\"\na = 1\nb = 0.8\nexponent = 4\n",
-                              "shape = \"spline\"\npoints = [[-1, -1], [0, -0.6], [1.2, -0.8], [1, "
-                              "1], [-0.2, 0.6], [-1, 1]]\n"};
+                              ("shape = \"spline\"\npoints = [[-1, -1], [0, -0.6], [1.2, -0.8], "
+                               "[1, 1], [-0.2, 0.6], [-1, 1]]\n")};
 
 TEST(CurvesInSteps, WithoutForcesOrbitsAreFlights) {
   for (const std::string shape : shapes) {

@@ -232,8 +232,8 @@ t_max = 30
 TEST(HandOver, NoParticleIsLostAtJoints) {
   const char* const tables[] = {
       "shape = \"polygon\"\npoints = [[0, 0], [3, 0], [3, 1], [1, 1], [1, 2], [0, 2]]\n",
-      "shape = \"polygon\"\npoints = [[0, 0], [2, 0.25], [4, 0], [2.5, 1], [4, 3], [2, 1.5], [0, "
-      "3], [1, 1]]\n",
+      ("shape = \"polygon\"\npoints = [[0, 0], [2, 0.25], [4, 0], [2.5, 1], [4, 3], [2, 1.5], "
+       "[0, 3], [1, 1]]\n"),
       "shape = \"mushroom\"\ncap_radius = 1\nstem_width = 0.5\nstem_height = 1\n",
       "shape = \"lemon\"\nradius = 1\nseparation = 1\n",
       "shape = \"annulus\"\nouter = 1\ninner = 0.5\noffset = 0.25\n",

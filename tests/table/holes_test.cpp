@@ -6,8 +6,6 @@
 namespace carom::tests {
 namespace {
 
-constexpr double pi = 3.141592653589793;
-
 const TableSpec square = shape("rectangle", {{"width", "1"}, {"height", "1"}});
 const TableSpec circle = shape("circle", {{"radius", "1"}});
 const TableSpec ellipse = shape("ellipse", {{"a", "1"}, {"b", "3/4"}});
