@@ -121,7 +121,7 @@ TEST(DiffusionInParts, SharesOfWhatIsMissingMakeTheWhole) {
     ASSERT_TRUE(sum.add(run_diffusion(system, options)));
   }
   const TrajectoryRanges there = sum.done;
-  for (const std::uint64_t k : {3, 1, 4, 2}) {
+  for (const std::uint64_t k : {3u, 1u, 4u, 2u}) {
     DiffusionOptions options;
     options.elsewhere = there;
     options.part = shard(k, 4, there.missing_from({0, system.run.trajectories}));
