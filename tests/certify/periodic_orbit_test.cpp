@@ -22,8 +22,8 @@ std::vector<NearHit> near(const PeriodicOrbit& orbit) {
 }
 
 const char* const systems[] = {
-    "[table]\nshape = \"discs\"\ncenters = [[0, 0], [6, 0], [3, \"3*sqrt(3)\"]]\nradius = "
-    "1\n[initial]\nkind = \"boundary\"\n",
+    ("[table]\nshape = \"discs\"\ncenters = [[0, 0], [6, 0], [3, \"3*sqrt(3)\"]]\nradius = 1\n"
+     "[initial]\nkind = \"boundary\"\n"),
     "[table]\nshape = \"stadium\"\nhalf_length = 1\nradius = 1\n",
     "[table]\nshape = \"ellipse\"\na = 1\nb = \"3/4\"\n[field]\nlarmor_radius = 3\n",
     "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = 0.5075\n",

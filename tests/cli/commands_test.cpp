@@ -191,8 +191,8 @@ TEST(Escape, FliesListedStartsOnce) {
 TEST(Escape, RefusesStartsThatCannotBeWithoutTrying) {
   const Shell shell;
   const char* impossible[] = {
-      "--set initial.kind=line --set 'initial.from=[0,0]' --set 'initial.to=[1,0]' --set "
-      "initial.angle=1",
+      ("--set initial.kind=line --set 'initial.from=[0,0]' --set 'initial.to=[1,0]' "
+       "--set initial.angle=1"),
       "--set initial.kind=rectangle --set 'initial.min=[0,0]' --set 'initial.max=[0,0]'",
       "--set initial.kind=rectangle --set 'initial.min=[2,0]' --set 'initial.max=[3,1]'"};
   for (const char* start : impossible) {
