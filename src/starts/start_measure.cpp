@@ -39,6 +39,7 @@ bool is_balanced(const TypedExpression& fraction, double n) {
                  from = elementary::atan2(before, std::sqrt((1.0 - before) * (1.0 + before)));
     const double there = fraction.value(std::array{from, to, n}),
                  back = fraction.value(std::array{to, from, 1.0 / n});
+    // Far above what a formula rounds, and far below what counts of hits could show.
     constexpr double roundings = 1e-9;
     if (!(std::fabs(there - back) <= roundings)) return false;
   }
