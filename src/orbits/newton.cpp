@@ -40,15 +40,17 @@ double largest(const std::vector<double>& v) {
   return most;
 }
 
-// What rounding may do to a singular value: each derivative is a sum of three products of rounded
-// numbers, whose directions err as the equations do (residual_error) and whose lengths by
-// 24 u D / l, so the matrix errs by m times that in any norm of it, and Golub and Reinsch's
-// decomposition by a further m u of its norm.
+// What rounding may do to a singular value, and pieces in place of the curve that was written: each
+// derivative is a sum of three products of rounded numbers, whose directions err as the equations
+// do and whose lengths by 24 u D / l, so the matrix errs by m times that in any norm of it, and
+// Golub and Reinsch's decomposition by a further m u of its norm. Curvatures stand on the diagonal
+// alone, times 2 at most.
 double matrix_error(const Boundary& boundary, const ChainGeometry& g,
                     const std::vector<double>& matrix, std::size_t m) {
-  const double relative =
-      3.0 * residual_error(boundary, g) + static_cast<double>(m) * unit_roundoff;
-  return static_cast<double>(m) * relative * largest(matrix);
+  const double relative = 3.0 * (residual_error(boundary, g) + error_of_pieces(boundary, g)) +
+                          static_cast<double>(m) * unit_roundoff;
+  return static_cast<double>(m) * relative * largest(matrix) +
+         2.0 * boundary.table->curve_errors.curvature;
 }
 
 // The step of Newton's: of least rank where the equations do not tell, a basic solution.
@@ -115,8 +117,8 @@ std::optional<Solution> solve(const Boundary& boundary, Chain chain) {
       best.chain = chain;
       best.geometry = std::move(g);
     }
-    if (size <= floor && error > 0.0) {
-      // Further steps would follow the rounding along a family.
+    if (size <= floor + error_of_pieces(boundary, best.geometry)) {
+      // Further steps would follow the rounding, or the pieces, along a family.
       const std::vector<double> values = singular_values(matrix, m);
       if (values.back() <= error) break;
     }
@@ -125,7 +127,6 @@ std::optional<Solution> solve(const Boundary& boundary, Chain chain) {
     const double factor = std::min(1.0, 0.5 * best.geometry.shortest / longest);
     if (!move(boundary, chain, step, longest > 0.0 ? factor : 0.0)) return {};
   }
-  if (!(least <= residual_error(boundary, best.geometry))) return {};
   const std::vector<double> matrix = derivatives(boundary, best.geometry);
   const double error = matrix_error(boundary, best.geometry, matrix, m);
   const std::vector<double> values = singular_values(matrix, m);
@@ -136,12 +137,12 @@ std::optional<Solution> solve(const Boundary& boundary, Chain chain) {
     else
       ++best.lost_rank;
   }
-  if (smallest == 0.0) return {};
+  // On pieces no member of a family fulfils the equations to rounding.
+  const double floor = residual_error(boundary, best.geometry),
+               pieces = error_of_pieces(boundary, best.geometry);
+  if (smallest == 0.0 || !(least <= (best.lost_rank > 0 ? floor + pieces : floor))) return {};
   // Twice the step that the equations' error would make; its 2-norm bounds each unknown.
-  best.error =
-      2.0 * std::sqrt(static_cast<double>(m)) *
-      (least + residual_error(boundary, best.geometry) + error_of_pieces(boundary, best.geometry)) /
-      smallest;
+  best.error = 2.0 * std::sqrt(static_cast<double>(m)) * (least + floor + pieces) / smallest;
   return best;
 }
 

@@ -125,6 +125,26 @@ b = "3/4"
   EXPECT_EQ(triangles, 1);
 }
 
+// Pieces err by more than rounding, so the rank is lost within the pieces' errors.
+TEST(OrbitSearch, FamiliesOnACurveOfFormulasAreThoseOfTheEllipse) {
+  const OrbitSearchOptions options{.most_hits = 3, .starts = 300, .tries = 20};
+  for (const std::string field : {"", "[field]\nB = 0.4\n"}) {
+    const auto found_in = [&](const std::string& table) {
+      return found(make_system("[table]\nshape = " + table + field), options);
+    };
+    const OrbitSearchResult own = found_in("'ellipse'\na = 1\nb = 0.75\n"),
+                            curve = found_in("'parametric'\nx = 'cos(t)'\ny = '0.75*sin(t)'\n");
+    for (const PeriodicOrbit& orbit : own.orbits) {
+      const PeriodicOrbit* same = near_length(curve, orbit.hits.size(), orbit.length);
+      ASSERT_TRUE(same) << orbit.hits.size() << " " << orbit.length;
+      EXPECT_EQ(same->family, orbit.family);
+      EXPECT_EQ(same->stability, orbit.stability);
+      EXPECT_NEAR(same->trace, orbit.trace, same->trace_error + orbit.trace_error);
+    }
+    EXPECT_EQ(curve.orbits.size(), own.orbits.size());
+  }
+}
+
 TEST(OrbitSearch, GivesTheSameOnAnyNumberOfThreads) {
   const System system = load_system("magnetic-square").system;
   const OrbitSearchResult one =
