@@ -114,10 +114,9 @@ Reference reference(const Bezier& b, const Flight& f) {
     const Real value = 2 * cross(v, d) + omega * dot(d, d);
     return f.on < 0.0 ? value : Real(value / (u - Real(f.on)));
   };
-  const auto slope = [&](const Real& u) {
-    const Real h("1e-150");
-    return Real(g(u + h) - g(u - h));
-  };
+  const Real h("1e-150");
+  const auto slope = [&](const Real& u) { return Real(g(u + h) - g(u - h)); };
+  const auto bend = [&](const Real& u) { return Real(g(u + h) - 2 * g(u) + g(u - h)); };
   const auto root = [](const auto& function, Real low, Real high) {
     const bool rises = function(low) < 0;
     for (int i = 0; i < 300; ++i) {
@@ -126,17 +125,23 @@ Reference reference(const Bezier& b, const Flight& f) {
     }
     return low;
   };
-  // Between the places where g turns it is monotone, so that no pair of roots is missed.
-  std::vector<Real> nodes{0};
+  // Between the places where g turns it is monotone, so that no pair of roots is missed; slopes may
+  // vanish twice where the curve bends to the other side, beside a flight along its tangent there.
+  std::vector<Real> cells{0}, nodes{0};
   constexpr int mesh = 50;
-  for (int k = 1; k <= mesh; ++k) {
+  for (int k = 0; k < mesh; ++k) {
     // On no simple fraction, where curves with few bits turn or stand.
-    const Real from = (Real(k - 1) + Real("0.0012345")) / mesh,
-               to = (Real(k) + Real("0.0012345")) / mesh;
-    if (slope(from) * slope(to) < 0) nodes.push_back(root(slope, from, to));
-    if (to < 1) nodes.push_back(to);
+    const Real from = (Real(k) + Real("0.0012345")) / mesh,
+               to = (Real(k + 1) + Real("0.0012345")) / mesh;
+    cells.push_back(from);
+    if (bend(from) * bend(to) < 0) cells.push_back(root(bend, from, to));
   }
-  nodes.push_back(1);
+  cells.push_back(1);
+  for (std::size_t k = 1; k < cells.size(); ++k) {
+    if (slope(cells[k - 1]) * slope(cells[k]) < 0)
+      nodes.push_back(root(slope, cells[k - 1], cells[k]));
+    nodes.push_back(cells[k]);
+  }
   Reference first;
   Real nearest = 0;
   for (std::size_t k = 1; k < nodes.size(); ++k) {
