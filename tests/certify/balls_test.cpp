@@ -11,6 +11,12 @@
 #include "certify/systems.hpp"
 #include "random_tables.hpp"
 
+/// GMP's own streams are those of one standard library.
+template <class T, class U>
+void PrintTo(const __gmp_expr<T, U>& x, std::ostream* out) {
+  *out << mpq_class(x).get_d();
+}
+
 namespace carom {
 namespace {
 

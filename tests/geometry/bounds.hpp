@@ -37,7 +37,7 @@ class Ratios {
       std::printf("%-34s max(error/bound) %8.5f over %ld cases\n", name.c_str(), ratio,
                   count_.at(name));
       EXPECT_LE(ratio, 1.0) << name;
-      EXPECT_GT(ratio, 0.01) << name;
+      EXPECT_GT(ratio, 0.005) << name;  // compilers draw numbers in another order: .0077 was seen
     }
   }
 
