@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "maps/closed/maps.hpp"
@@ -11,7 +10,7 @@ namespace carom::maps {
 namespace {
 
 using Real = long double;
-constexpr Real pi = std::numbers::pi_v<Real>;
+constexpr Real pi = maps::pi<Real>;
 
 // Free motion for a time in the field, written with the exponential of the velocity's rotation.
 Phase<Real> fly(const Phase<Real>& p, Real omega, Real t) {

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "maps/closed/maps.hpp"
 #include "maps/engine.hpp"
@@ -12,7 +11,7 @@ namespace carom {
 namespace {
 
 using Real = long double;
-constexpr Real two_pi = 2 * std::numbers::pi_v<Real>;
+constexpr Real two_pi = 2 * maps::pi<Real>;
 
 struct Difference {
   Real angle = 0, time = 0, momentum = 0;

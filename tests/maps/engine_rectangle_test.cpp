@@ -60,7 +60,7 @@ TEST(EngineMagneticRectangle, KeepsToTheScallopsForAMillionHits) {
     start.velocity = {0.0, 1.0};
     const auto hits = witness::orbit(table, {1, 1, 1, omega}, start, 1000000);
     const maps::MagneticRectangle<Real> map(1, 1, 1, omega);
-    maps::Gyration<Real> particle{0.5L, static_cast<Real>(0.001), std::numbers::pi_v<Real> / 2};
+    maps::Gyration<Real> particle{0.5L, static_cast<Real>(0.001), maps::pi<Real> / 2};
     Real place = 0, time = 0;
     for (const HitEvent& hit : hits) {
       particle = *map.next(particle);

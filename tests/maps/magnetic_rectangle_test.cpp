@@ -12,7 +12,7 @@ namespace carom::maps {
 namespace {
 
 using Real = long double;
-constexpr Real pi = std::numbers::pi_v<Real>;
+constexpr Real pi = maps::pi<Real>;
 
 template <class Number>
 Number uniform(std::mt19937_64& random, Number low, Number high) {

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 
 #include "maps/closed/maps.hpp"
 
@@ -15,7 +14,7 @@ template <class Real>
 DiscHit<Real> Disc<Real>::after(const DiscHit<Real>& hit, std::uint64_t n) const {
   const Real count = static_cast<Real>(n);
   if (omega_ == 0) {
-    const Real advance = std::numbers::pi_v<Real> - 2 * hit.beta;
+    const Real advance = pi<Real> - 2 * hit.beta;
     return {hit.theta + count * advance, hit.beta,
             hit.time + count * (2 * radius_ * std::cos(hit.beta) / speed_)};
   }
@@ -55,7 +54,7 @@ std::optional<DiscHit<Real>> Disc<Real>::first_hit(const Phase<Real>& start) con
   const Real rho = speed_ / std::abs(omega_);
   const Real centre = std::atan2(start.y - start.vx / omega_, start.x + start.vy / omega_);
   const Real theta = centre + turn * std::atan2(rho * cosine, radius_ + turn * rho * sine);
-  const Real two_pi = 2 * std::numbers::pi_v<Real>;
+  const Real two_pi = 2 * pi<Real>;
   Real sweep = std::fmod(turn * (direction - theta - beta), two_pi);
   if (sweep < 0) sweep += two_pi;
   return DiscHit<Real>{theta, beta, sweep / std::abs(omega_)};

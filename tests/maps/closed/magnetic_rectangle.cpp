@@ -1,6 +1,5 @@
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "maps/closed/maps.hpp"
 
@@ -8,7 +7,7 @@ namespace carom::maps {
 namespace {
 
 template <class Real>
-constexpr Real two_pi = 2 * std::numbers::pi_v<Real>;
+constexpr Real two_pi = 2 * pi<Real>;
 
 // The turn from one direction to another in the sense of the field, in [0, 2 pi).
 template <class Real>
@@ -22,7 +21,7 @@ Real turn(Real from, Real to, Real omega) {
 template <class Real>
 Real mirrored(Side side, Real angle) {
   const bool horizontal = side == Side::bottom || side == Side::top;
-  return std::remainder(horizontal ? -angle : std::numbers::pi_v<Real> - angle, two_pi<Real>);
+  return std::remainder(horizontal ? -angle : pi<Real> - angle, two_pi<Real>);
 }
 
 }  // namespace
@@ -36,7 +35,6 @@ template <class Real>
 std::optional<Gyration<Real>> MagneticRectangle<Real>::arrive(const Gyration<Real>& from) const {
   const Real r = speed_ / omega_;
   const Real cx = from.x + r * std::sin(from.angle), cy = from.y - r * std::cos(from.angle);
-  const Real pi = std::numbers::pi_v<Real>;
   // sin a on the vertical sides, cos a on the horizontal ones, in the order of Side.
   const std::array<Real, 4> ratio = {-cy / r, (cx - width_) / r, (height_ - cy) / r, cx / r};
   Real least = 0, angle = 0;
@@ -52,7 +50,7 @@ std::optional<Gyration<Real>> MagneticRectangle<Real>::arrive(const Gyration<Rea
     } else if (s == Side::right) {
       a = std::asin(q);
     } else if (s == Side::left) {
-      a = pi - std::asin(q);
+      a = pi<Real> - std::asin(q);
     } else {
       a = s == Side::top ? std::acos(q) : -std::acos(q);
     }

@@ -16,6 +16,10 @@
 
 namespace carom::maps {
 
+/// libc++'s std::numbers::pi_v<long double> is a double.
+template <class Real>
+constexpr Real pi = static_cast<Real>(3.141592653589793238462643383279502884L);
+
 /// Position and velocity.
 template <class Real>
 struct Phase {
