@@ -99,10 +99,9 @@ std::string why_not_stationary(const System& system) {
   }
   if (lets_go(*system.table)) return "particles leave";
   if (std::string why = why_not_uniform(system); !why.empty()) return why;
+  if (feel_each_other(system)) return "the energy is divided among interacting particles by a rule";
   if (!system.has_forces()) return {};
   const ForceField& forces = *system.dynamics.forces;
-  if (system.particles.size() > 1 && (system.of_discs() || forces.interacts()))
-    return "the energy is divided among interacting particles by a rule";
   if (forces.external() && system.energies.empty())
     return "they have one speed where the potential differs";
   return {};

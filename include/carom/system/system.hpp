@@ -96,4 +96,9 @@ inline bool act_on_each_other(const System& system) {
   return system.of_discs() || (system.dynamics.forces && system.dynamics.forces->interacts());
 }
 
+/// Are there several that do?
+inline bool feel_each_other(const System& system) {
+  return system.particles.size() > 1 && act_on_each_other(system);
+}
+
 }  // namespace carom

@@ -45,7 +45,7 @@ void refuse_impossible(const System& system) {
     throw InputError(Place{"", 0, 0, "run.free_paths"},
                      "regions change the speeds, and lengths of flights count one speed",
                      "regions without an index or a potential");
-  if (system.run.free_paths && system.is_integrated())
+  if (system.run.free_paths && (system.is_integrated() || feel_each_other(system)))
     throw InputError(Place{"", 0, 0, "run.free_paths"},
                      "flights are free between hits of walls alone, and other forces act",
                      "free particles, one by one, with or without a magnetic field");

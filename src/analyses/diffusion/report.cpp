@@ -88,7 +88,7 @@ std::string horizon_text(const Horizon& horizon) {
   if (horizon.kind == Kind::infinite)
     text += fmt::format("t P(no hit until t) -> {:.6g} at speed 1\n", horizon.flight_tail);
   else
-    text += "The field bends all flights: the corridors end, and D exists.\n";
+    text += "The field bends all flights: the corridors end.\n";
   return text;
 }
 
@@ -125,6 +125,39 @@ std::string fit_text(const DiffusionSummary& summary) {
   return text;
 }
 
+// Does the MSD grow as t in the window? What is compared with its error is far beyond chance.
+std::vector<std::string> doubts_of_growth(const DiffusionFit& fit,
+                                          const std::vector<MomentPoint>& points) {
+  std::vector<std::string> doubts;
+  // Few times leave no room for the offset c: what grows otherwise shows in the plain slope, too.
+  const bool enough = std::isfinite(fit.exponent.value);
+  const Estimate& a = enough ? fit.exponent : fit.local_exponent;
+  const double off = std::abs(a.value - 1);
+  if (!(off <= 5 * a.error) && (off > 0.05 || (enough && a.error > 0)))
+    doubts.emplace_back("the MSD does not grow as t in the window: D depends on it");
+  // c is the most of it: it has hardly begun to grow, or never will.
+  else if (fit.local_exponent.value < 0.5)
+    doubts.emplace_back(
+        "the MSD hardly grows in the window: particles may stay near their starts, where D is 0");
+  const auto at = [&](double t) {
+    return std::find_if(points.begin(), points.end(),
+                        [&](const MomentPoint& p) { return p.t >= t; });
+  };
+  const auto first = at(fit.window.from), last = at(fit.window.to);
+  if (last == points.end()) return doubts;
+  // <r^4> / <r^2>^2 is 2 of a diffusion, and (20 / n)^(1/2) its error for n particles.
+  const auto kurtosis = [](const MomentPoint& p) {
+    return p.fourth.value / (p.square.value * p.square.value);
+  };
+  const double count = static_cast<double>(last->count), k = kurtosis(*last);
+  if (k > 2.0 + std::max(0.3, 5.0 * std::sqrt(20.0 / count)) && k > 1.1 * kurtosis(*first))
+    doubts.push_back(fmt::format(
+        "few particles move much farther than the others, ever more so (<r^4> = {:.3g} <r^2>^2; 2 "
+        "where they diffuse): if their orbits never turn, D does not exist",
+        k));
+  return doubts;
+}
+
 }  // namespace
 
 Doubts doubts_of(const System& system, const DiffusionResult& r) {
@@ -144,13 +177,9 @@ DiffusionSummary summary_of(const System& system, const DiffusionResult& result)
   const TimeWindow asked =
       window ? TimeWindow{window->first, window->second} : moments.default_window();
   summary.fit = moments.fit(asked);
-  if (summary.fit && summary.no_D.empty()) {
-    // Few times leave no room for the offset c: what grows otherwise shows in the plain slope, too.
-    const bool enough = std::isfinite(summary.fit->exponent.value);
-    const Estimate& a = enough ? summary.fit->exponent : summary.fit->local_exponent;
-    if (std::abs(a.value - 1) > 0.05 && !(std::abs(a.value - 1) <= 5 * a.error))
-      add(summary.note, "the MSD does not grow as t in the window: D depends on it");
-  }
+  if (summary.fit && summary.no_D.empty())
+    for (const std::string& doubt : doubts_of_growth(*summary.fit, summary.points))
+      add(summary.note, doubt);
   // A cap first ends the particles that hit most often.
   if (result.capped > 0 && summary.fit && summary.no_D.empty()) {
     const auto last =
@@ -161,6 +190,8 @@ DiffusionSummary summary_of(const System& system, const DiffusionResult& result)
           "the cap on hits ended particles before the window's end: only those with few hits "
           "remain");
   }
+  if (result.escaped + result.unbounded > 0)
+    add(summary.note, "particles left: the MSD is that of those that are still there");
   add(summary.note, repeated_starts(system));
   add(summary.note, correlation_note(system));
   if (!summary.fit && summary.no_D.empty()) {

@@ -17,11 +17,12 @@ using files::Json;
 
 namespace {
 
-// pi area / perimeter, where every particle can come to a wall and walls keep uniform positions.
+// pi area / perimeter, where every particle can come to a wall, none leaves, and walls keep uniform
+// positions. The centres of discs are bounded by other curves than the walls.
 std::optional<double> expected_mean(const System& system, const DiffusionResult& result) {
   const double mean = measure(*system.table).mean_flight;
-  if (result.pinned > 0 || result.capped > 0 || !std::isfinite(mean) ||
-      !why_not_uniform(system).empty())
+  if (result.pinned > 0 || result.capped > 0 || result.escaped > 0 || result.unbounded > 0 ||
+      system.of_discs() || !std::isfinite(mean) || !why_not_uniform(system).empty())
     return std::nullopt;
   return mean;
 }

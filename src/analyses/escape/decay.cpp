@@ -117,6 +117,9 @@ constexpr double beside_a_plateau = 10.0;
 // So that the window, a fifth of them, has left most of the beginning behind.
 constexpr double least_described = 1000.0;
 
+// Exponents from here to 1 may be those of 1/t with a logarithm, as of rectangles with a hole.
+constexpr double like_a_logarithm = 0.75;
+
 /// Is the rate that of the window, and no more? What a power differs by at first dies away as a
 /// power, too: it has to have held within the window, and before one that was chosen here.
 bool is_local(const Candidate& one, const Data& data, const Window& window, bool chosen) {
@@ -124,6 +127,10 @@ bool is_local(const Candidate& one, const Data& data, const Window& window, bool
   const double from = data.bins[window.first].from;
   if (too_short_to_show(decay.law, decay.rate, from, data.end)) return true;
   if (decay.law == DecayLaw::exponential) return false;
+  // (A + B ln t) / t falls with the exponent 1 - B / (A + B ln t), in no window a law of its own.
+  if (plain_power(decay) && decay.rate > like_a_logarithm &&
+      decay.rate + 2.0 * decay.rate_error < 1.0)
+    return true;
   return (decay.with_plateau && data.end < beside_a_plateau * from) || one.drift > refuted_drift ||
          (chosen && count_of(data.bins.subspan(window.described)) < least_described);
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "carom/engines/engine.hpp"
 #include "carom/results/interval.hpp"
 #include "carom/starts/start_measure.hpp"
@@ -87,7 +89,10 @@ Json ensemble_json(const System& system, const EnsembleResult& result,
 }
 
 Json estimate_json(const Estimate& e) {
-  return Json::object().set("value", e.value).set("stderr", e.error);
+  // An infinite error, where there are too few groups to tell, is none.
+  return Json::object()
+      .set("value", e.value)
+      .set("stderr", std::isfinite(e.error) ? Json(e.error) : Json());
 }
 
 std::string with_error(const Estimate& e) { return with_error(e.value, e.error); }
@@ -114,7 +119,10 @@ std::string correlation_note(const System& system) {
   return fmt::format(
       "the starts are not stationary ({}): C(t) and its integral are those from these starts, and "
       "D(t) need not tend to D{}",
-      why, system.run.free_paths ? "; free paths are biased by a part that falls as 1/t" : "");
+      why,
+      system.run.free_paths
+          ? "; free paths are biased, by a part that falls as 1/t where none leave"
+          : "");
 }
 
 }  // namespace carom::cli
