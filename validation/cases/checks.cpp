@@ -416,7 +416,7 @@ Check check_distance(const System& system, double expected, Allowance allowance)
 
 Check Orders::check(const std::string& scheme) {
   // All at once: they share the orbit that they are compared with.
-  if (!result_) result_ = compare(system_, {.schemes = schemes_});
+  if (!result_) result_ = compare(system_, {.schemes = schemes_, .t_max = t_max_});
   Check c;
   c.seed = system_.run.seed;
   const auto number = std::find(schemes_.begin(), schemes_.end(), scheme) - schemes_.begin();

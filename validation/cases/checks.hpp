@@ -99,13 +99,15 @@ Check check_distance(const System&, double expected, Allowance);
 /// The measured orders of schemes with fixed steps on trajectory 0, beside the stated ones.
 class Orders {
  public:
-  Orders(System system, std::vector<std::string> schemes)
-      : system_(std::move(system)), schemes_(std::move(schemes)) {}
+  /// Errors are compared until t_max; 0: the time that `carom compare` chooses.
+  Orders(System system, std::vector<std::string> schemes, double t_max)
+      : system_(std::move(system)), schemes_(std::move(schemes)), t_max_(t_max) {}
   Check check(const std::string& scheme);
 
  private:
   System system_;
   std::vector<std::string> schemes_;
+  double t_max_;
   std::optional<Comparison> result_;
 };
 
