@@ -35,7 +35,7 @@ step = 0.05
 [run]
 t_max = 20
 trajectories = 100
-times = { from = 0.01, to = 20, count = 200, spacing = "linear" }
+times = { from = 0.01, to = 20, count = 50, spacing = "linear" }
 )toml");
 }
 
@@ -44,7 +44,7 @@ System over_an_edge() {
 [run]
 t_max = 5
 trajectories = 100
-times = { from = 0.003, to = 4.996, count = 200, spacing = "linear" }
+times = { from = 0.003, to = 4.996, count = 50, spacing = "linear" }
 )toml");
 }
 

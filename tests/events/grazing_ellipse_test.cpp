@@ -35,7 +35,7 @@ class Distance : public Observer {
 
 TEST(GrazingEllipse, HitsLieOnIt) {
   tests::Dice dice(58);
-  for (long k = 0; k < tests::cases(4000, 400'000); ++k) {
+  for (long k = 0; k < tests::cases(2000, 400'000); ++k) {
     const double size = dice.coin() ? 1.0 : dice.spread(1e-18, 1e18),
                  ratio = dice.spread(1e-3, 1.0);
     const Table table =

@@ -225,7 +225,7 @@ TEST(LarmorRadii, EighteenDecadesOfRadiiAgreeWithSixtyDigits) {
     Dice dice(7);
     for (int decade = -6; decade <= 12; ++decade) {
       Errors errors;
-      for (long i = cases(60, 2000); i > 0; --i) compare(one.table, one.size, decade, dice, errors);
+      for (long i = cases(25, 2000); i > 0; --i) compare(one.table, one.size, decade, dice, errors);
       std::printf(
           "%-18s radius 1e%+03d: time %5.1f relative, same wall; %5.1f of the size, other; place "
           "%5.1f\n",

@@ -76,7 +76,7 @@ TEST(SignsInSteps, PositionsDecideNearlyAlongAWall) {
          {PotentialSpec::Kind::harmonic, PotentialSpec::Kind::henon_heiles}) {
       World world(table, stepped(scheme, step, kind));
       Dice dice(5);
-      for (long k = 0; k < tests::cases(100, 2000); ++k)
+      for (long k = 0; k < tests::cases(40, 2000); ++k)
         hits_of(world, {dice.between(-0.7, 0.6), dice.spread(1e-9, 1e-2)},
                 {dice.sign() * dice.between(0.2, 1.0), -dice.spread(1e-9, 1e-2)}, 20.0);
     }

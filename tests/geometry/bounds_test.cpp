@@ -193,7 +193,7 @@ TEST(Bounds, PointsAndNormalsHaveTheirBounds) {
   Dice dice(6);
   Ratios r;
   constexpr int points = 25;
-  for (long left = cases(120000, 30000000); left > 0; left -= points) {
+  for (long left = cases(50000, 30000000); left > 0; left -= points) {
     const double size = random_size(dice);
     const int kind = dice.whole(0, 2);
     Curve curve = kind == 0   ? random_segment(size, dice)
