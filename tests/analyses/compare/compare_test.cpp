@@ -42,7 +42,7 @@ class OfField : public testing::TestWithParam<const char*> {};
 
 TEST_P(OfField, EverySchemeIsMeasuredAsItIsStated) {
   const System system = make_system(henon_heiles(GetParam()));
-  const Comparison result = compare(system, {.schemes = fixed_schemes(), .t_max = 16.0});
+  const Comparison result = compare(system, {.schemes = fixed_schemes(), .t_max = 6.0});
   ASSERT_EQ(result.schemes.size(), schemes().size());
   EXPECT_LT(result.reference_error, 1e-9);
   for (const ComparedScheme& scheme : result.schemes) {
