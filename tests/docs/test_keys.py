@@ -80,7 +80,7 @@ RUNS = {
             "antidot-magnetic --set integrator.step=0.5", "siam-photon --precision certified",
             "./corner.toml --precision certified", "henon-heiles --t-max 50 --set integrator.scheme=velocity-verlet --set "
             "integrator.step=0.2", "lorentz-square --t-max 10", "stadium --closed --position 0,0 --velocity 3,4 --t-max 5"],
-    "compare": ["stadium --closed --schemes velocity-verlet,arkode", "henon-heiles --schemes velocity-verlet,ruth-3"],
+    "compare": ["stadium --closed --schemes velocity-verlet,arkode", "henon-heiles --schemes velocity-verlet,ruth-3 --t-max 10"],
     "schemes": [""],
     "table": ["mushroom", "./arc.toml -o x.svg", "./polar.toml"],
     "plot": ["stadium -o stadium.png"],

@@ -111,7 +111,7 @@ def test_a_command_draws_its_result(carom, tmp_path, command):
 
 def test_a_film_is_made(carom, tmp_path):
     carom("run", "ellipse-magnetic", "--collisions", 3, "-o", "orbit.h5", "--quiet")
-    carom("animate", "orbit.h5")
+    carom("animate", "orbit.h5", "--frames", 4)
     assert (tmp_path / "orbit.gif").read_bytes().startswith(b"GIF")
     assert "orbit.gif" in carom("animate", "orbit.h5", status=1).stderr
     carom("escape", "stadium", "--trajectories", 10, "-o", "escape.h5", "--quiet")

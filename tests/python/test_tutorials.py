@@ -21,6 +21,7 @@ SMALL = {
     "1000 -o": "50 -o", "log:1:1e4:41": "log:1:100:11", "--t-max 1e4": "--t-max 100",
     "t_max=10**4": "t_max=100", "hits:lin:0:12:13": "hits:lin:0:4:5", "--digits 100": "--digits 20",
     "--trajectories 200": "--trajectories 5", "t > 1000": "t > 20", "(t < 300)": "(t < 90)",
+    "--trajectories 16 --t-max 50": "--trajectories 3 --t-max 10", '"arkode"])': '"arkode"], t_max=2)',
     "--t-max 1000": "--t-max 20", "log:1:1000:31": "log:1:20:5", 'y="exponent"': 'y="survival"',  # no law is found
 }  # fmt: skip
 _made = importlib.util.spec_from_file_location("notebooks", TUTORIALS.parents[1] / "site" / "notebooks.py")
@@ -40,7 +41,7 @@ def sh(code, folder):
     for line in code.replace("\\\n", " ").splitlines():
         if line.startswith("carom lyapunov three-disc"):  # populations that do not die out
             line = re.sub(r"--trajectories \S+", "--trajectories 15000", line)
-        options = "--trajectories 200" if re.match(r"carom diffusion", line) else ""
+        options = {"diffusion": "--trajectories 200", "compare": "--t-max 2"}.get((line.split() + ["", ""])[1], "")
         done = subprocess.run(
             ["sh", "-c", f"{line} {options}"], cwd=folder, env={**os.environ, "PATH": path},
             capture_output=True, text=True, check=False,
@@ -68,6 +69,16 @@ def test_the_cells_of_a_tutorial_run_in_order(page, tmp_path, monkeypatch):
                 assert error.name in NOT_EVERYWHERE
             pyplot.close("all")
     assert list(tmp_path.glob("*.png")) or list(tmp_path.glob("*.svg")), "it ends without a figure"
+
+
+def test_every_command_of_a_tutorial_is_in_a_cell_of_the_shell():
+    for page in PAGES:
+        blocks = re.findall(r"^```\w*\n(.*?)^```", page.read_text(encoding="utf-8"), re.M | re.S)
+        commands = re.findall(r"^(?:carom|\./dev run) .*", "".join(blocks), re.M)
+        cells = notebooks.notebook(page.read_text(encoding="utf-8"))["cells"]
+        shell = "".join("".join(cell["source"]) + "\n" for cell in cells if cell["cell_type"] == "code")
+        lines = "".join(part for part in re.split(r"^(?=%%)", shell, flags=re.M) if part.startswith("%%sh")).splitlines()
+        assert [command for command in commands if command not in lines] == []
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
