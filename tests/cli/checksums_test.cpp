@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -387,7 +388,9 @@ TEST(Checksums, AnIndexOfLinksIsDamagedOrLists) {
   };
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   int refused_for_links = 0;
-  for (std::size_t at = 0; at < std::min<std::size_t>(whole.size(), 8192); at += 8) {
+  // Every eighth byte with CAROM_SOAK.
+  const std::size_t step = std::getenv("CAROM_SOAK") ? 8 : 24;
+  for (std::size_t at = 0; at < std::min<std::size_t>(whole.size(), 8192); at += step) {
     std::string bad = whole;
     bad[at] ^= 16;
     std::ofstream(path, std::ios::binary) << bad;

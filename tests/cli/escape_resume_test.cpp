@@ -194,10 +194,10 @@ TEST(EscapeResume, AFileOfAnotherKindIsReplacedAtTheEnd) {
   const std::string files[] = {
       "$carom run stadium --t-max 3 -o a.h5", "echo none > a.h5",
       "$carom diffusion lorentz-triangular --trajectories 10 --t-max 5 -o a.h5"};
+  const Shell shell;
+  const Undisturbed whole(shell, mushroom, " --per-trajectory");
   for (const std::string& file : files) {
-    const Shell shell;
-    const Undisturbed whole(shell, mushroom, " --per-trajectory");
-    ASSERT_EQ(shell(file).status, 0);
+    ASSERT_EQ(shell("rm -rf a.h5*; " + file).status, 0);
     ASSERT_EQ(shell(until_records_are_full(mushroom) + " --force").status, 1);
     ASSERT_TRUE(shell.exists("a.h5") && shell.exists("a.h5.part/checkpoint.h5"));
     const Outcome o = shell("$carom" + mushroom.on("a.h5"));

@@ -131,7 +131,7 @@ TEST(Ranks, AKilledRankCostsTheLastBlocksAlone) {
   if (!has_mpi()) GTEST_SKIP() << "no mpirun";
   const Shell shell;
   const std::string run =
-      "$carom escape stadium --trajectories 1e7 --t-max 60 --quiet --json --threads 1";
+      "$carom escape stadium --trajectories 3e6 --t-max 60 --quiet --json --threads 1";
   ASSERT_EQ(shell(run + " -o whole.h5").status, 0);
   const auto whole = datasets(shell, "whole.h5");
   for (int kill = 0; kill < (std::getenv("CAROM_SOAK") ? 25 : 3); ++kill) {
