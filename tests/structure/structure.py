@@ -7,7 +7,6 @@ Prints one line for each fault; the exit status is then 1.
 """
 import ast
 import graphlib
-import json
 import os
 import pathlib
 import platform
@@ -15,7 +14,6 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 
 # Modules that a module may include besides itself and base/; dependencies of dependencies do not count. Certified orbits test
 # the engine, so certify/ includes nothing of events/. `analyses` is what an analysis of analyses/ may see, besides itself and
@@ -285,37 +283,16 @@ def check_format(root):
 
 
 def check_headers(root):
-    """Every header of lanes compiles alone: kernels are read, and checked by tools, one header at a time.
-
-    As in a build, a header that compiled is compiled again when it, or a file that it includes, has changed; what compiled
-    is kept in the file CAROM_COMPILED_HEADERS. Without it all are compiled."""
-    kept = pathlib.Path(os.environ.get("CAROM_COMPILED_HEADERS") or os.devnull)
-    before = json.loads(kept.read_text()) if kept.is_file() else {}
-    compiled = {}
+    """Every header of lanes compiles alone: kernels are read, and checked by tools, one header at a time."""
     narrowest = ["-mssse3"] if platform.machine() in ("x86_64", "AMD64") else []  # as carom_kernels(baseline)
     flags = ["-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", *narrowest, "-x", "c++", "-"]
     folders = [f"-I{root / folder}" for folder in ("src", "include", "geometry/include")]
     for path in sorted((root / "src/lanes").rglob("*.hpp")):
         name = path.relative_to(root / "src").as_posix()
-        command = [os.environ.get("CXX", "c++"), *folders, *flags]
-        if name in before and before[name] == [command, times_of(before[name][1])]:
-            compiled[name] = before[name]
-            continue
-        with tempfile.TemporaryDirectory() as folder:
-            rule = pathlib.Path(folder) / "rule"
-            done = subprocess.run([*command, "-MD", "-MF", str(rule)], input=f'#include "{name}"\n', capture_output=True, text=True)
-            if done.returncode or done.stderr:
-                yield f"src/{name} does not compile alone: {(done.stderr.splitlines() or [''])[-1]}"
-                continue
-            files = rule.read_text().partition(":")[2].replace("\\\n", " ").split()
-        compiled[name] = [command, times_of({shutil.which(command[0]): 0, **dict.fromkeys(files)})]
-    if kept != pathlib.Path(os.devnull):
-        kept.write_text(json.dumps(compiled))
-
-
-def times_of(files):
-    """When each file was changed last; None: it is not there."""
-    return {file: os.stat(file).st_mtime_ns if os.path.exists(file) else None for file in files}
+        done = subprocess.run([os.environ.get("CXX", "c++"), *folders, *flags], input=f'#include "{name}"\n',
+                              capture_output=True, text=True)
+        if done.returncode or done.stderr:
+            yield f"src/{name} does not compile alone: {(done.stderr.splitlines() or [''])[-1]}"
 
 
 # Files that name the version of Carom, and how. CMakeLists.txt is the one that the program and the packages take it from.
