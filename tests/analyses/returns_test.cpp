@@ -38,6 +38,14 @@ TEST(Returns, MeansAreThoseOfKacsLemma) {
   }
 }
 
+// The centre of a disc meets other curves than the walls.
+TEST(Returns, NothingIsExpectedOfDiscs) {
+  SystemOverrides overrides;
+  overrides.set = {
+      {"table.hole", "[]"}, {"section.on", "wall:bottom"}, {"particles.radius", "0.1"}};
+  EXPECT_FALSE(expected_returns(load_system("stadium", overrides).system));
+}
+
 // In a circle every flight of an orbit has the same length 2 cos(a): times to the whole wall are
 // chords, with the density d/2 / sqrt(4 - d^2) of the cosine law.
 TEST(Returns, ChordsOfACircleHaveTheirLaw) {

@@ -187,6 +187,25 @@ TEST(Escape, FliesListedStartsOnce) {
       json_value(shell("$carom escape stadium --t-max 5 --trajectories 9 --json").out, "note"), "");
 }
 
+// Where flights bend D may still not exist: some orbits drift for ever, or none does.
+TEST(Diffusion, DoubtsADThatTheMomentsDoNotShow) {
+  const Shell shell;
+  const std::string square = "$carom diffusion lorentz-square --json ";
+  const auto note = [&](const std::string& options) {
+    return json_value(shell(square + options).out, "note");
+  };
+  EXPECT_NE(note("--set field.B=2 --trajectories 10000 --t-max 1000").find("much farther"),
+            std::string::npos);
+  EXPECT_NE(note("--set table.radius=0.3 --set field.B=12 --trajectories 500").find("hardly grows"),
+            std::string::npos);
+  EXPECT_EQ(json_value(shell("$carom diffusion lorentz-triangular --json").out, "note"), "");
+  const std::string left =
+      "--set 'table.hole=[{wall=\"disc\", center=1, width=0.3}]' --trajectories 300 --t-max 20 ";
+  const Outcome paths = shell("$carom diffusion lorentz-triangular --json --free-paths " + left);
+  EXPECT_NE(json_value(paths.out, "note").find("particles left"), std::string::npos);
+  EXPECT_NE(paths.out.find("\"expected_mean\": null"), std::string::npos) << paths.out;
+}
+
 // Nothing to draw from: that is known at once.
 TEST(Escape, RefusesStartsThatCannotBeWithoutTrying) {
   const Shell shell;

@@ -171,6 +171,11 @@ TEST(FreePaths, NeedFreeParticles) {
   System system = counting(
       std::string(circle) + "[[potential]]\nkind = \"linear\"\nforce = [0.1, 0]\n", 10, 10);
   EXPECT_THROW(run_diffusion(system), InputError);
+  const auto discs = [](const char* count) {
+    return counting(std::string(circle) + "[particles]\nradius = 0.1\ncount = " + count, 10, 10);
+  };
+  EXPECT_NO_THROW(run_diffusion(discs("1\n")));
+  EXPECT_THROW(run_diffusion(discs("2\n")), InputError);  // speeds change where they meet
 }
 
 // No mean where there are no hits, and a bin where all flights are short against it.

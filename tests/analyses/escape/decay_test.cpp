@@ -279,6 +279,34 @@ TEST(Decay, NamesALocalSlope) {
   }
 }
 
+// P(t) = (1 + 0.37 ln t) / t, as in a square with a hole of .3.
+TEST(Decay, OneOverTimeWithALogarithmIsNoPowerOfItsOwn) {
+  const Ensemble logarithm{"logarithm",
+                           1000,
+                           [](Generator& g) {
+                             const double wanted = uniform(g);
+                             double low = 1, high = 1e6;
+                             while (high > low * (1 + 1e-9)) {
+                               const double t = std::sqrt(low * high);
+                               ((1 + 0.37 * std::log(t)) / t > wanted ? low : high) = t;
+                             }
+                             return low;
+                           },
+                           "power",
+                           1,
+                           0,
+                           0};
+  Generator generator(1);
+  for (long trial = 0; trial < cases(3, 30); ++trial) {
+    const DecayFit fit = fit_of(logarithm, 100000, generator);
+    for (const Decay& decay : fit.decays) {
+      if (name_of(decay) != "power") continue;
+      EXPECT_LT(decay.rate + 2 * decay.rate_error, 1);
+      EXPECT_TRUE(decay.local) << decay.rate;
+    }
+  }
+}
+
 TEST(Decay, TakesTheWindowThatIsGiven) {
   Generator generator(1);
   const DecayFit fit = fit_of(pure[0], 100000, generator, DecayWindow{7, 23});
