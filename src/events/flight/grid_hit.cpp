@@ -5,6 +5,7 @@
 
 #include "base/index.hpp"
 #include "carom/geometry/hull.hpp"
+#include "events/flight/cell_walk.hpp"
 #include "events/flight/chain_tree.hpp"
 #include "events/flight/crossing.hpp"
 #include "events/flight/next_hit.hpp"
@@ -83,6 +84,7 @@ template <bool larmor>
                                                          std::size_t which, FirstDisc& first) {
   const int piece = two.piece[which], offset = two.offset[which];
   if (piece == f.start_piece) return Sign::negative;  // a line leaves a disc for good
+  if (piece == first.piece) return Sign::positive;    // again, in another cell
   const int curve = offset == 0 ? piece : t_.data[at(piece)].curve;
   const Origin& origin = offset == 0 ? origins_[0] : seen_from(f, offset);
   const Vector centre =
@@ -96,7 +98,6 @@ template <bool larmor>
   const double discriminant = discriminant_of(q), margin = discriminant_error(q, error);
   if (discriminant < -margin) return Sign::negative;
   if (!(q.b < -error.b && q.a > error.a && discriminant > margin)) return Sign::undecided;
-  if (piece == first.piece) return Sign::positive;  // again, in another cell
   const double root = std::sqrt(discriminant), unit = root - q.b, kappa = unit / q.a;
   const double kappa_spread = kappa_error(q, error, {discriminant, root, kappa});
   if (first.piece >= 0) {
@@ -182,7 +183,7 @@ bool HitFinder::filtered_in_grid(const Flight& f, Ahead& ahead) {
   FirstDisc disc;
   ahead = Ahead();
   const NearFlight near = near_flight<larmor>(f);
-  const auto visit = [&](int cell) {
+  const auto visit = [&](int cell) __attribute__((always_inline)) {
     const std::size_t end = t_.grid->first_pair(cell + 1);
     for (std::size_t i = t_.grid->first_pair(cell); i < end; ++i) {
       const PieceTable::Near& two = t_.near[i];
@@ -198,7 +199,7 @@ bool HitFinder::filtered_in_grid(const Flight& f, Ahead& ahead) {
       }
     }
   };
-  const auto passed = [&](double kappa) {
+  const auto passed = [&](double kappa) __attribute__((always_inline)) {
     if (!list_.empty()) {
       // The first of those so far, against those that are new.
       if (disc.piece >= 0) list_.push_back(disc.piece);
@@ -224,7 +225,10 @@ bool HitFinder::filtered_in_grid(const Flight& f, Ahead& ahead) {
     }
     return ahead.kind != Ahead::Kind::none && ahead.kappa - error > kappa;
   };
-  follow(f, visit, passed);
+  const Origin& own = origins_[0];
+  if (larmor || !t_.grid->walk_line(own.point, own.scale.delta * t_.options.filter_inflation,
+                                    f.velocity, visit, passed))
+    follow(f, visit, passed);
   return decided && !(ahead.piece >= 0 && t_.is_rough(f, ahead.piece));
 }
 

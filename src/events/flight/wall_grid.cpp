@@ -71,6 +71,11 @@ void WallGrid::cover(const Reach& r, const Visit& visit) const {
 
 WallGrid::WallGrid(const std::vector<Piece>& pieces, Vector first, Vector second,
                    const Box& within) {
+  // Cells are as if they were larger by this, which is little beside them, on each side.
+  const double extent = size(size(within.low.x, within.high.x), size(within.low.y, within.high.y));
+  const double margin = 0x1p-30 * (within.high.x - within.low.x + within.high.y - within.low.y) +
+                        256.0 * unit_roundoff * extent;
+  slack_ = margin - 24.0 * unit_roundoff * extent;
   std::vector<Reach> reaches;
   reaches.reserve(pieces.size());
   for (const Piece& p : pieces) {
@@ -93,6 +98,8 @@ WallGrid::WallGrid(const std::vector<Piece>& pieces, Vector first, Vector second
     if (r.segment != nullptr)
       r.error +=
           4.0 * unit_roundoff * std::fmax(r.box.high.x - r.box.low.x, r.box.high.y - r.box.low.y);
+    r.error += margin;
+    r.box = {r.box.low - Vector{margin, margin}, r.box.high + Vector{margin, margin}};
     reaches.push_back(r);
   }
 
