@@ -22,8 +22,8 @@ FreeFlights::FreeFlights(const PieceTable& seen, const Table& inside, const Forc
     media_of_table_.push_back({HitFinder(media_->pieces_of(r)), nullptr});
   scattering_.any = scatters(media_ ? media_->table() : seen.table);
   scattering_.thermal = is_thermal(seen.table);
-  plain_ = !media_ && !scattering_.any && !regions.any() && (!seen.cells || over_edges_) &&
-           seen.table.holes.empty();
+  plain_ = !media_ && !scattering_.any && !regions.any() &&
+           (!seen.cells || over_edges_ || seen.grid) && seen.table.holes.empty();
   add_corners(pieces());
   for (int r = 0; media_ && r < media_->size(); ++r) add_corners(media_->pieces_of(r));
 }

@@ -34,6 +34,11 @@ std::uint64_t FreeFlights::apply_hits(int index, double t_end, std::uint64_t mos
     flight.start = b.state.position;
     flight.velocity = b.state.velocity;
     const int wall = b.ahead.piece;
+    // Among many walls one may reach into other cells.
+    if constexpr (cells)
+      if (pieces().grid &&
+          (wall >= static_cast<int>(pieces().table.walls.size()) || !pieces().piece(wall).within))
+        break;
     const geometry::PreparedCurve& curve = pieces().curve(wall);
     geometry::Vector before, origin = flight.start;
     if constexpr (cells) {
@@ -60,7 +65,7 @@ std::uint64_t FreeFlights::apply_hits(int index, double t_end, std::uint64_t mos
     base::fuses_surely();
     bool found;
     if constexpr (cells)
-      found = finder_.over_edges(flight, ahead, counts_);
+      found = !pieces().grid && finder_.over_edges(flight, ahead, counts_);
     else
       found = finder_.next_in_convex(flight, ahead, counts_);
     if constexpr (cells) {
