@@ -118,23 +118,29 @@ class Search {
 /// A flight that does not start on the curve and crosses it nowhere nearly along it, as nearly all
 /// do that come to a short one. The coefficients in Bernstein form rise or fall by so much that one
 /// of them at most is hidden by its error: the search finds one root at once, or none, and from the
-/// signs at the ends it is known which.
-std::optional<CurveExit> exit_across(const auto& path) {
-  if (path.stands()) return std::nullopt;
+/// signs at the ends it is known which. Undecided: it is for the search to tell.
+CurveExit exit_across(const auto& path) {
+  if (path.stands()) return {};
   const Course g = path.course();
-  if (g.trend == Sign::undecided) return std::nullopt;
+  if (g.trend == Sign::undecided) return {};
   const Sign first = sign_within(g.first, g.error), last = sign_within(g.last, g.error);
-  if (first == Sign::undecided || last == Sign::undecided) return std::nullopt;
-  if (g.trend == Sign::negative || first == last) return CurveExit{.leaves = Sign::negative};
-  if (first != Sign::negative || last != Sign::positive) return std::nullopt;
-  const CurveExit exit = exit_between(path, g.first, g.last, 0.0, 1.0, true);
-  return exit.leaves == Sign::undecided ? std::nullopt : std::optional(exit);
+  if (first == Sign::undecided || last == Sign::undecided) return {};
+  if (g.trend == Sign::negative || first == last) return {.leaves = Sign::negative};
+  if (first != Sign::negative || last != Sign::positive) return {};
+  return exit_between(path, g.first, g.last, 0.0, 1.0, true);
 }
 
+/// One variable from there to the caller: numbers stored one by one and copied two at once would
+/// wait for each other.
 CurveExit first_exit_of(const auto& path) {
-  if (const auto exit = exit_across(path)) return *exit;
-  if (path.surely_missed()) return {.leaves = Sign::negative};
-  return Search(path).first();
+  CurveExit exit = exit_across(path);
+  if (exit.leaves == Sign::undecided) {
+    if (path.surely_missed())
+      exit.leaves = Sign::negative;
+    else
+      exit = Search(path).first();
+  }
+  return exit;
 }
 
 }  // namespace carom::geometry

@@ -123,17 +123,18 @@ class ChainTree {
     /// Bit k: a flight may leave through root k.
     unsigned open(const Roots& roots) const {
       const TwoVectors start = both_of(start_), v = both_of(velocity_);
-      std::array<double, Roots::most + 2> sides;
-      for (std::size_t i = 0; i < sides.size(); i += 2)
-        put_pair(cross(v, pairs_at(roots.x, roots.y, i) - start), sides, i);
+      // Sides stay in registers: a pair from memory would wait for both of those that it is of.
+      PairOfDoubles from = cross(v, pairs_at(roots.x, roots.y, 0) - start);
       unsigned found = 0;
       for (std::size_t i = 0; i < Roots::most; i += 2) {
+        const PairOfDoubles after = cross(v, pairs_at(roots.x, roots.y, i + 2) - start);
         const PairOfDoubles a = cross(v, pairs_at(roots.first_x, roots.first_y, i)),
                             b = cross(v, pairs_at(roots.last_x, roots.last_y, i)),
                             error = both(error_),
                             wide = both(speed_) * pair_at(roots.bulge, i) + error,
                             near = smaller(a, b) > both(0.0) ? error : wide;
-        found |= open_pair(pair_at(sides, i), pair_at(sides, i + 1), near, larger(a, b)) << i;
+        found |= open_pair(from, between(from, after), near, larger(a, b)) << i;
+        from = after;
       }
       return found;
     }
@@ -175,25 +176,29 @@ class ChainTree {
     unsigned open(const Roots& roots) const {
       const TwoVectors start = both_of(start_), v = both_of(velocity_);
       const PairOfDoubles omega = both(omega_), w = both(w_);
-      std::array<double, Roots::most + 2> sides, along_x, along_y;
-      for (std::size_t i = 0; i < sides.size(); i += 2) {
+      struct {
+        PairOfDoubles side;
+        TwoVectors along;
+      } at, after;
+      const auto see = [&](std::size_t i, auto& joints) {
         const auto d = pairs_at(roots.x, roots.y, i) - start;
-        put_pair(both(2.0) * cross(v, d) + omega * dot(d, d), sides, i);
-        put_pair(v.x + omega * d.y, along_x, i);
-        put_pair(v.y - omega * d.x, along_y, i);
-      }
+        joints = {both(2.0) * cross(v, d) + omega * dot(d, d),
+                  {v.x + omega * d.y, v.y - omega * d.x}};
+      };
+      see(0, at);
       unsigned found = 0;
-      for (std::size_t i = 0; i < Roots::most; i += 2) {
+      for (std::size_t i = 0; i < Roots::most; i += 2, at = after) {
+        see(i + 2, after);
         const auto first = pairs_at(roots.first_x, roots.first_y, i),
-                   last = pairs_at(roots.last_x, roots.last_y, i),
-                   from = pairs_at(along_x, along_y, i), to = pairs_at(along_x, along_y, i + 1);
+                   last = pairs_at(roots.last_x, roots.last_y, i), from = at.along;
+        const TwoVectors to{between(from.x, after.along.x), between(from.y, after.along.y)};
         const PairOfDoubles a = cross(from, first), b = cross(from, last), c = cross(to, first),
                             d = cross(to, last), bulge = pair_at(roots.bulge, i),
                             turned = w * bulge + both(turn_error_), error = both(error_),
                             wide = bulge * (both(speed_) + w * bulge) +
                                    w * pair_at(roots.quarter, i) + error,
                             near = smaller(smaller(a, b), smaller(c, d)) > turned ? error : wide;
-        found |= open_pair(pair_at(sides, i), pair_at(sides, i + 1), near,
+        found |= open_pair(at.side, between(at.side, after.side), near,
                            larger(larger(a, b), larger(c, d)) + turned)
                  << i;
       }
@@ -266,7 +271,11 @@ class ChainTree {
   template <class Flight, class Visit>
   void look_for_exits(const Flight& flight, const Open& root, const Visit& visit) const {
     const Node& node = nodes_[root.node];
-    if (!flight.behind(root.from, root.to, flight.near(node))) descend<true>(flight, root, visit);
+    if (flight.behind(root.from, root.to, flight.near(node))) return;
+    if (flight.trend(node, root.from, root.to).rises)
+      cross_once(flight, root.node, visit);
+    else
+      descend<true>(flight, root, visit);
   }
   template <class Flight>
   Open root_of(const Flight& flight, std::size_t k) const {
