@@ -8,6 +8,7 @@
 
 #include "carom/events/world.hpp"
 #include "carom/geometry/hull.hpp"
+#include "events/flight/cell_walk.hpp"
 #include "events/flight/locator.hpp"
 #include "events/flight/next_hit.hpp"
 #include "events/flight/wall_grid.hpp"
@@ -357,6 +358,49 @@ TEST(Grid, VisitsTheCellsOfAllPointsNearAFlight) {
           ASSERT_TRUE(visited[static_cast<std::size_t>(piece)]);
       }
     }
+  }
+}
+
+// A line aimed at any point of a wall comes to a cell that lists it, before it is told that all
+// cells were visited up to there.
+TEST(Grid, LinesCellByCellComeToTheWallsTheyMeet) {
+  for (const Table& table : {regular(3000), star(300, 0.05), comb(30),
+                             discs_in_a_box(150, 0.04, 20), discs_in_a_box(150, 0.04, 100)}) {
+    const WallGrid grid = grid_of(table);
+    const geometry::Box box = geometry::hull_of(
+        table.walls, [](const Wall& wall) { return geometry::bounding_box(wall.curve); });
+    const double size = box.high.x - box.low.x;
+    Dice dice(23);
+    for (long n = 0; n < cases(4000, 200000); ++n) {
+      const auto wall =
+          static_cast<std::size_t>(dice.whole(0, static_cast<int>(table.walls.size()) - 1));
+      const geometry::CurveFrame frame = geometry::frame_of(table.walls[wall].curve);
+      const Vector aim = geometry::point_at(frame, frame.last * dice.unit());
+      Vector start{dice.between(box.low.x - size, box.high.x + size),
+                   dice.between(box.low.y - size, box.high.y + size)};
+      // Along a wall, or nearly along an axis, at times.
+      if (dice.coin()) start = geometry::point_at(frame, frame.last * dice.unit());
+      if (dice.whole(0, 7) == 0) start.x = aim.x + size * dice.sign() * dice.spread(1e-15, 1e-3);
+      const Vector d = aim - start;
+      if (d.x == 0.0 || d.y == 0.0) continue;
+      const Vector v = dice.spread(1e-3, 1e3) * d;
+      double known = 0.0, first = HUGE_VAL;  // times of all that was visited, and of the wall
+      const auto visit = [&](int cell) {
+        for (const int piece : grid.pieces(cell))
+          if (piece == static_cast<int>(wall)) first = std::min(first, known);
+      };
+      const auto passed = [&](double kappa) {
+        known = kappa > 0.0 ? 1.0 / kappa : HUGE_VAL;
+        return false;
+      };
+      ASSERT_TRUE(grid.walk_line(start, 1e-15 * size, v, visit, passed));
+      const double time = std::sqrt(dot(d, d) / dot(v, v));
+      ASSERT_LE(first, time * (1.0 + 1e-12) + 1e-9 * size / std::sqrt(dot(v, v)));
+    }
+    EXPECT_FALSE(grid.walk_line(
+        box.low, size, {1.0, 1.0}, [](int) {}, [](double) { return true; }));
+    EXPECT_FALSE(grid.walk_line(
+        box.low, 0.0, {1.0, 0.0}, [](int) {}, [](double) { return true; }));
   }
 }
 
