@@ -9,6 +9,7 @@
 #include "certify/followed_orbit.hpp"
 #include "certify/number/exact_value.hpp"
 #include "certify/wall/system_check.hpp"
+#include "table/bezier_wall.hpp"
 
 namespace carom {
 
@@ -375,9 +376,8 @@ CertifiedOrbit::CertifiedOrbit(const ExactSystem& system, const CertifiedTask& t
     throw InputError(Place{}, "a certified orbit without an end",
                      "a number of collisions or a last time");
   check_digits(static_cast<std::uint64_t>(std::max(task.digits, 0)), *system.table);
-  if (auto curve = certify::CurveOfFormulas::of(*system.spec))
-    implementation_ =
-        certify::orbit_along_curve(system, task, std::move(interrupted), std::move(*curve));
+  if (table::bezier_wall(*system.table) && !system.table->lattice)
+    implementation_ = certify::orbit_among_curves(system, task, std::move(interrupted));
   else
     implementation_ = std::make_unique<WallOrbit>(system, task, std::move(interrupted));
 }

@@ -1,4 +1,4 @@
-// What a certified orbit is followed by: along walls of segments and conics, or along a curve.
+// What a certified orbit is followed by: along walls of segments and conics, or among curves.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,6 @@
 #include "carom/certify/certified_orbit.hpp"
 #include "certify/enclosure/state_enclosure.hpp"
 #include "certify/number/enclosure_of.hpp"
-#include "certify/wall/curve_of_formulas.hpp"
 
 namespace carom::certify {
 
@@ -22,10 +21,9 @@ class FollowedOrbit {
   virtual const CertifiedEffort& effort() = 0;
 };
 
-/// Without field, without holes.
-std::unique_ptr<FollowedOrbit> orbit_along_curve(const ExactSystem&, const CertifiedTask&,
-                                                 std::function<bool()> interrupted,
-                                                 CurveOfFormulas);
+/// Where walls are curves, without a lattice.
+std::unique_ptr<FollowedOrbit> orbit_among_curves(const ExactSystem&, const CertifiedTask&,
+                                                  std::function<bool()> interrupted);
 
 inline void fill(CertifiedState& state, BallState s) {
   state.t = number_of(std::move(s.time));

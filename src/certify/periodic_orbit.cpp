@@ -14,7 +14,7 @@
 #include "certify/flight/scene.hpp"
 #include "certify/number/enclosure_of.hpp"
 #include "certify/number/exact_value.hpp"
-#include "certify/wall/curve_of_formulas.hpp"
+#include "table/bezier_wall.hpp"
 
 namespace carom {
 
@@ -33,57 +33,6 @@ Ball sin_of(const Ball& a) {
   return r;
 }
 BallVector scaled(const Ball& s, const BallVector& v) { return {s * v.x, s * v.y}; }
-
-// A wall as a function of one number: from + t chord, or centre + A cos t + B sin t; or the whole
-// curve that a wall is a piece of.
-using Place = CurvePlace;
-class Path {
- public:
-  Path(const CurveOfFormulas& curve, double near)
-      : turn(curve.turn()), curve_(&curve), near_(near) {}
-  explicit Path(const WallOf<Ball>& wall) : straight_(wall.form == Form::segment) {
-    turn = wall.turn;
-    if (straight_) {
-      origin_ = wall.from;
-      a_ = wall.chord;
-    } else if (wall.form == Form::circle) {
-      const Ball radius = sqrt(wall.radius2);
-      origin_ = wall.centre;
-      a_ = {radius, Ball(0)};
-      b_ = {Ball(0), radius};
-    } else {
-      origin_ = wall.centre;
-      a_ = scaled(Ball(1) / dot(wall.along, wall.along), wall.along);
-      b_ = scaled(Ball(1) / dot(wall.across, wall.across), wall.across);
-    }
-  }
-
-  Place at(const Ball& t) const {
-    if (curve_) return curve_->at(t);
-    if (straight_) return {origin_ + scaled(t, a_), a_, {Ball(0), Ball(0)}};
-    const Ball c = cos_of(t), s = sin_of(t);
-    const BallVector out = scaled(c, a_) + scaled(s, b_);
-    return {origin_ + out, scaled(c, b_) - scaled(s, a_), -out};
-  }
-  /// The number of a point that is nearly on the wall.
-  double near(geometry::Vector p) const {
-    if (curve_) return near_;
-    const geometry::Vector e{p.x - origin_.x.to_double(), p.y - origin_.y.to_double()};
-    const auto part = [&](const BallVector& axis) {
-      const geometry::Vector v{axis.x.to_double(), axis.y.to_double()};
-      return dot(e, v) / dot(v, v);
-    };
-    return straight_ ? part(a_) : elementary::atan2(part(b_), part(a_));
-  }
-
-  double turn = 1.0;  ///< -1: arc length runs against t
-
- private:
-  const CurveOfFormulas* curve_ = nullptr;  ///< or a wall's, which follows
-  double near_ = 0.0;
-  bool straight_ = false;
-  BallVector origin_, a_, b_;
-};
 
 // A matrix of balls that frees itself.
 class Matrix {
@@ -127,19 +76,17 @@ class Matrix {
 class Equations {
  public:
   Equations(const ExactSystem& system, const std::vector<NearHit>& hits)
-      : hits_(hits), curve_(CurveOfFormulas::of(*system.spec)) {
+      : hits_(hits),
+        pieces_(*system.spec, table::shapes::written_shape(*system.spec)),
+        curved_(table::bezier_wall(*system.table) && !system.table->lattice) {
     const Ball omega = value_of(system.omega);
-    if (curve_) {
-      for (const NearHit& hit : hits)
-        paths_.emplace_back(*curve_, curve_->parameter(hit.wall, hit.u));
-    } else {
+    if (!curved_) {
       BallTable table = ball_table(*system.spec);
       where_ = whereabouts_of(table, omega);
       scene_.walls = std::move(table.walls);
       scene_.lattice = std::move(table.lattice);
-      for (const NearHit& hit : hits)
-        paths_.emplace_back(scene_.walls[static_cast<std::size_t>(hit.wall)]);
     }
+    for (const NearHit& hit : hits) spots_.push_back(pieces_.spot(hit.wall, hit.u));
     speed = value_of(system.speed);
     scene_.motion.speed2 = square(speed);
     scene_.motion.inverse_speed2 = Ball(1) / scene_.motion.speed2;
@@ -153,8 +100,7 @@ class Equations {
   std::size_t size() const { return field_ ? 2 * hits_.size() : hits_.size(); }
   std::vector<Ball> start() const {
     std::vector<Ball> x;
-    for (std::size_t i = 0; i < hits_.size(); ++i)
-      x.emplace_back(paths_[i].near(hits_[i].position));
+    for (const Pieces::Spot& spot : spots_) x.push_back(spot.t.midpoint());
     if (field_)
       for (const NearHit& hit : hits_) x.emplace_back(hit.half_turn);
     return x;
@@ -165,13 +111,13 @@ class Equations {
     BallVector direction, out, in;
   };
   struct At {
-    std::vector<Place> places;
+    std::vector<CurvePlace> places;
     std::vector<Flight> flights;
   };
   At at(const std::vector<Ball>& x) const {
     const std::size_t n = hits_.size();
     At r;
-    for (std::size_t i = 0; i < n; ++i) r.places.push_back(paths_[i].at(x[i]));
+    for (std::size_t i = 0; i < n; ++i) r.places.push_back(piece(i).at(x[i]));
     for (std::size_t i = 0; i < n; ++i) {
       BallVector to = r.places[(i + 1) % n].point;
       if (scene_.lattice) to = to + scene_.translation(hits_[i].step);
@@ -203,7 +149,7 @@ class Equations {
     const std::size_t n = hits_.size();
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t j = (i + 1) % n;
-      const Place &p = a.places[i], &q = a.places[j];
+      const CurvePlace &p = a.places[i], &q = a.places[j];
       const Flight &f = a.flights[i], &before = a.flights[(i + n - 1) % n];
       const BallVector across = left(f.direction);
       m.add(i, i, dot(p.second, before.in - f.out));
@@ -238,12 +184,12 @@ class Equations {
     for (std::size_t i = 0; i < n; ++i) {
       const Flight& f = a.flights[i];
       const std::size_t j = (i + 1) % n;
-      const Place& q = a.places[j];
+      const CurvePlace& q = a.places[j];
       const Ball c2 = field_ ? square(f.cosine) - square(f.sine) : Ball(1);
       const Ball b = f.chord * f.cosine;  // sin(k L)/k
       const Ball c = -(square(curvature_) * b);
       const Ball rate = sqrt(square(q.first.x) + square(q.first.y));
-      const Ball turn(paths_[j].turn);
+      const Ball turn(piece(j).turn);
       const BallVector t = scaled(turn / rate, q.first), normal = left(t);
       const Ball bend = turn * cross(q.first, q.second) / (rate * square(rate));
       const Ball kick = -((Ball(2) * (bend + curvature_ * dot(t, f.in))) / dot(normal, f.in));
@@ -260,9 +206,9 @@ class Equations {
   // Does each flight meet the next hit's wall first, and there?
   std::string obstacle(const std::vector<Ball>& x, const At& a) const {
     const std::size_t n = hits_.size();
-    for (std::size_t i = 0; curve_ && i < n; ++i)
+    for (std::size_t i = 0; curved_ && i < n; ++i)
       if (const std::string fault = obstacle_on_curve(x, a, i); !fault.empty()) return fault;
-    if (curve_) return {};
+    if (curved_) return {};
     for (std::size_t i = 0; i < n; ++i) {
       const BallVector &P = a.places[i].point, v = scaled(speed, a.flights[i].out);
       const NearHit &from = hits_[i], &to = hits_[(i + 1) % n];
@@ -287,14 +233,15 @@ class Equations {
     const std::size_t next = (i + 1) % hits_.size();
     const Flight& f = a.flights[i];
     const auto inwards = [&](std::size_t k, const BallVector& v) {
-      return sign(Ball(paths_[k].turn) * cross(a.places[k].first, v));
+      return sign(Ball(piece(k).turn) * cross(a.places[k].first, v));
     };
     if (inwards(i, f.out) != Sign::positive || inwards(next, f.in) != Sign::negative)
-      return "a flight is not inside the curve";
+      return "a flight is not inside the table";
     const FlightBetween flight{a.places[i].point, a.places[next].point, f.out, curvature_};
-    return meets_nowhere_else(*curve_, flight, x[i], x[next])
+    const Pieces::Spot from{spots_[i].piece, x[i]}, to{spots_[next].piece, x[next]};
+    return meets_nowhere_else(pieces_, flight, from, to)
                ? ""
-               : "a flight meets the curve earlier, or it cannot be told";
+               : "a flight meets a wall earlier, or it cannot be told";
   }
   Ball half_curvature() const {
     return sign(curvature_) == Sign::negative ? -(curvature_ / 2) : curvature_ / 2;
@@ -302,10 +249,13 @@ class Equations {
   Ball clockwise() const { return Ball(sign(curvature_) == Sign::negative ? -1 : 1); }
 
   const std::vector<NearHit>& hits_;
-  std::optional<CurveOfFormulas> curve_;
+  const Piece& piece(std::size_t i) const { return pieces_[spots_[i].piece]; }
+
+  Pieces pieces_;
+  bool curved_;  ///< else the walls are also those of a scene
   SceneOf<Ball> scene_;
   Whereabouts where_;
-  std::vector<Path> paths_;
+  std::vector<Pieces::Spot> spots_;  ///< about the hits
   Ball curvature_;
   bool field_ = false;
 };

@@ -8,58 +8,13 @@
 #include "carom/geometry/curve_frame.hpp"
 #include "table/numbers.hpp"
 #include "table/quintic.hpp"
+#include "table/spline.hpp"
 
 namespace carom::table::shapes {
 namespace {
 
 using geometry::Bezier;
 using geometry::Vector;
-
-/// Solves l[k] x[k-1] + d[k] x[k] + u[k] x[k+1] = r[k] around a circle: Thomas' algorithm with the
-/// corners as a correction of rank one. Diagonally dominant, so without pivots.
-std::vector<Vector> solve_around(const std::vector<double>& l, std::vector<double> d,
-                                 const std::vector<double>& u, std::vector<Vector> r) {
-  const std::size_t n = d.size();
-  const double corner = -d[0];
-  std::vector<double> z(n, 0.0);
-  z[0] = corner;
-  z[n - 1] = u[n - 1];
-  d[0] -= corner;
-  d[n - 1] -= l[0] * u[n - 1] / corner;
-  for (std::size_t k = 1; k < n; ++k) {
-    const double share = l[k] / d[k - 1];
-    d[k] -= share * u[k - 1];
-    r[k] = r[k] - share * r[k - 1];
-    z[k] -= share * z[k - 1];
-  }
-  for (std::size_t k = n; k-- > 0;) {
-    const bool last = k + 1 == n;
-    r[k] = (1.0 / d[k]) * (last ? r[k] : r[k] - u[k] * r[k + 1]);
-    z[k] = (last ? z[k] : z[k] - u[k] * z[k + 1]) / d[k];
-  }
-  const double back = l[0] / corner, weight = 1.0 + z[0] + back * z[n - 1];
-  const Vector share = (1.0 / weight) * (r[0] + back * r[n - 1]);
-  for (std::size_t k = 0; k < n; ++k) r[k] = r[k] - z[k] * share;
-  return r;
-}
-
-/// The derivatives at the points of the periodic cubic spline whose parameter grows by the length
-/// of the chords.
-std::vector<Vector> slopes_at(const std::vector<Vector>& points, const std::vector<double>& chord) {
-  const std::size_t n = points.size();
-  std::vector<double> l(n), d(n), u(n);
-  std::vector<Vector> r(n);
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t before = (k + n - 1) % n, next = (k + 1) % n;
-    const double a = chord[before], b = chord[k];
-    l[k] = b;
-    d[k] = 2.0 * (a + b);
-    u[k] = a;
-    r[k] =
-        (3.0 * b / a) * (points[k] - points[before]) + (3.0 * a / b) * (points[next] - points[k]);
-  }
-  return solve_around(l, d, u, r);
-}
 
 WrittenCurve reversed(const WrittenCurve& curve) {
   if (const auto* bezier = std::get_if<Bezier>(&curve))
@@ -95,8 +50,8 @@ double area_of(const Chain& chain) {
 Chain reversed(Chain chain) {
   Chain round;
   for (std::size_t k = chain.size(); k-- > 0;)
-    round.push_back(
-        {std::move(chain[k].name), reversed(chain[k].curve), chain[(k + 1) % chain.size()].corner});
+    round.push_back({std::move(chain[k].name), reversed(chain[k].curve),
+                     chain[(k + 1) % chain.size()].corner, chain[k].to, chain[k].from});
   return round;
 }
 
@@ -136,41 +91,38 @@ Chain loop_of_pieces(const LoopSpec& loop, const std::function<std::string(std::
   return chain;
 }
 
+std::vector<SplinePoint> points_in_order(const std::vector<ExactPoint>& written, bool clockwise) {
+  std::vector<SplinePoint> points;
+  double area = 0.0;
+  for (std::size_t k = 0; k < written.size(); ++k) {
+    area += cross(point(written[k]), point(written[(k + 1) % written.size()]));
+    points.push_back({written[k], k});
+  }
+  if (clockwise ? area > 0.0 : area < 0.0) {
+    std::reverse(points.begin() + 1, points.end());
+    for (std::size_t k = 0; k < points.size(); ++k) points[k].side = points.size() - 1 - k;
+  }
+  return points;
+}
+
 Chain spline(const std::vector<ExactPoint>& written, const Place& place, const Layout& layout) {
   if (written.size() < 3)
     throw InputError(place, "the shape 'spline' needs at least three points",
                      "a list of points [x, y]");
+  const std::vector<SplinePoint> in_order = points_in_order(written, layout.clockwise);
   std::vector<Vector> points;
-  for (const ExactPoint& p : written) points.push_back(point(p));
-  double area = 0.0;
+  for (const SplinePoint& p : in_order) points.push_back(point(p.at));
   for (std::size_t k = 0; k < points.size(); ++k)
-    area += cross(points[k], points[(k + 1) % points.size()]);
-  std::vector<std::size_t> side;  // the number of the piece after each point, as it was written
-  for (std::size_t k = 0; k < points.size(); ++k) side.push_back(k);
-  if (layout.clockwise ? area > 0.0 : area < 0.0) {
-    std::reverse(points.begin() + 1, points.end());
-    std::reverse(side.begin(), side.end());
-  }
-  std::vector<double> chord;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const Vector d = points[(k + 1) % points.size()] - points[k];
-    chord.push_back(std::sqrt(dot(d, d)));
-    if (!(chord.back() > 0.0))
-      throw InputError(written[side[k]].x.place(), "the same point twice in a row",
+    if (const Vector d = points[(k + 1) % points.size()] - points[k]; !(dot(d, d) > 0.0))
+      throw InputError(written[in_order[k].side].x.place(), "the same point twice in a row",
                        "different points; the curve closes automatically");
-  }
-  const std::vector<Vector> slope = slopes_at(points, chord);
+  const std::vector<std::vector<Vector>> pieces = spline_pieces(points);
   const std::vector<std::string> names = numbered(layout.stem, points.size());
   Chain chain;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const std::size_t next = (k + 1) % points.size();
-    const double third = chord[k] / 3.0;
-    chain.push_back({names[side[k]],
-                     Bezier{points[k],
-                            points[next],
-                            {points[k] + third * slope[k], points[next] - third * slope[next]},
-                            3},
-                     smooth});
+    const std::vector<Vector>& control = pieces[k];
+    chain.push_back({names[in_order[k].side],
+                     Bezier{control[0], control[3], {control[1], control[2]}, 3}, smooth});
   }
   return chain;
 }

@@ -6,7 +6,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "table/shapes.hpp"
@@ -16,8 +15,6 @@ namespace carom::table::shapes {
 struct ClosedCurve {
   Chain chain;
   CurveErrors errors = {};
-  /// Of formulas: the parameters where each wall begins and ends.
-  std::vector<std::pair<double, double>> parameters = {};
 };
 /// What its walls are called, STEM_1, STEM_2 …, and how they run.
 struct Layout {
@@ -25,25 +22,27 @@ struct Layout {
   bool clockwise = false;
 };
 
-/// A closed curve as it is written: r(phi) about the origin, or x(t) and y(t).
+/// A closed curve as it is written: r(phi) about a centre, or x(t) and y(t).
 struct CurveFormulas {
   bool polar = false;
   WrittenFormula first, second = {};  ///< the radius and nothing, or x and y
   std::map<std::string, ExactNumber> numbers =
       {};  ///< by the names that the formulas have for them
   ExactNumber from = {}, to = ExactNumber("2*pi");
+  ExactPoint centre = {};  ///< polar
 };
-/// Of a shape whose outer wall is one; nothing of others.
+/// Of a shape whose outer wall is one, and of an obstacle; nothing of others.
 std::optional<CurveFormulas> formulas_of(const TableSpec&);
+std::optional<CurveFormulas> formulas_of(const ObstacleSpec&);
 
 ClosedCurve drawn(const CurveFormulas&, const Layout&);
 
-/// A curve r(phi) about a centre; names follow the walls.
-ClosedCurve drawn_polar(const WrittenFormula& radius, geometry::Vector centre, const Layout&);
-/// The same of x(t), y(t); `from` and `to` are 0 and 2 pi if not given.
-ClosedCurve drawn_parametric(const WrittenFormula& x, const WrittenFormula& y,
-                             const std::optional<ExactNumber>& from,
-                             const std::optional<ExactNumber>& to, const Layout&);
+/// The points of a spline in the order of its walls.
+struct SplinePoint {
+  ExactPoint at;
+  std::size_t side;  ///< the number of the wall from here on, as it was written
+};
+std::vector<SplinePoint> points_in_order(const std::vector<ExactPoint>&, bool clockwise);
 /// The periodic cubic spline through points; wall k leads from point k to the next or back. A fault
 /// that is none of a point is at `place`.
 Chain spline(const std::vector<ExactPoint>& points, const Place& place, const Layout&);

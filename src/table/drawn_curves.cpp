@@ -111,16 +111,12 @@ class Drawing {
     // Where both derivatives of the first order vanish, at its start, the curve turns back.
     const bool cusp = jets[0].first == Vector{};
     Chain chain;
-    for (const Bezier& piece : pieces_)
-      chain.push_back({"", piece, chain.empty() && cusp ? 0 : smooth});
-    if ((area_of(chain) < 0.0) != layout.clockwise) {
-      std::reverse(parameters_.begin(), parameters_.end());
-      for (auto& [from, to] : parameters_) std::swap(from, to);
-      chain = reversed(std::move(chain));
-    }
+    for (const auto& [piece, from, to] : pieces_)
+      chain.push_back({"", piece, chain.empty() && cusp ? 0 : smooth, from, to});
+    if ((area_of(chain) < 0.0) != layout.clockwise) chain = reversed(std::move(chain));
     const std::vector<std::string> names = numbered(layout.stem, chain.size());
     for (std::size_t k = 0; k < chain.size(); ++k) chain[k].name = names[k];
-    return {std::move(chain), errors_, std::move(parameters_)};
+    return {std::move(chain), errors_};
   }
 
  private:
@@ -169,8 +165,7 @@ class Drawing {
       const Bezier piece = quintic(a, b);
       const CurveErrors errors = errors_between(a, piece, off);
       if (as_promised(errors, size_)) {
-        pieces_.push_back(piece);
-        parameters_.emplace_back(a.at, b.at);
+        pieces_.push_back({piece, a.at, b.at});
         include(errors_, errors);
         return;
       }
@@ -196,8 +191,11 @@ class Drawing {
   double size_ = 0.0;
   CurveErrors errors_;
   Jet gap_{};  ///< between the formulas' end and their start
-  std::vector<Bezier> pieces_;
-  std::vector<std::pair<double, double>> parameters_;
+  struct Part {
+    Bezier piece;
+    double from, to;
+  };
+  std::vector<Part> pieces_;
 };
 
 CurveFormulas parametric_with(const WrittenFormula& x, const WrittenFormula& y,
@@ -224,21 +222,20 @@ std::optional<ExactNumber> given(const TableSpec& spec, const char* key) {
 
 }  // namespace
 
-ClosedCurve drawn(const CurveFormulas& curve, const Layout& layout) {
+ClosedCurve drawn(const CurveFormulas& written, const Layout& layout) {
   Numbers numbers;
-  for (const auto& [name, value] : curve.numbers) numbers.emplace(name, value.to_double());
-  const Place& place = curve.first.place;
-  if (curve.polar) return Drawing(Polar{place, parsed(curve.first, "phi", numbers)}).walls(layout);
-  const double from = curve.from.to_double(), to = curve.to.to_double();
-  if (!(to > from))
-    throw InputError(curve.to.place(), "'to' is not larger than 'from'", "from < to");
-  return Drawing(Parametric{place, parsed(curve.first, "t", numbers),
-                            parsed(curve.second, "t", numbers), from, to})
-      .walls(layout);
-}
-
-ClosedCurve drawn_polar(const WrittenFormula& radius, Vector centre, const Layout& layout) {
-  ClosedCurve curve = drawn({true, radius}, layout);
+  for (const auto& [name, value] : written.numbers) numbers.emplace(name, value.to_double());
+  const Place& place = written.first.place;
+  if (!written.polar) {
+    const double from = written.from.to_double(), to = written.to.to_double();
+    if (!(to > from))
+      throw InputError(written.to.place(), "'to' is not larger than 'from'", "from < to");
+    return Drawing(Parametric{place, parsed(written.first, "t", numbers),
+                              parsed(written.second, "t", numbers), from, to})
+        .walls(layout);
+  }
+  ClosedCurve curve = Drawing(Polar{place, parsed(written.first, "phi", numbers)}).walls(layout);
+  const Vector centre = point(written.centre);
   if (centre == Vector{}) return curve;
   CurveErrors moved;
   for (NamedCurve& wall : curve.chain) {
@@ -254,7 +251,7 @@ ClosedCurve drawn_polar(const WrittenFormula& radius, Vector centre, const Layou
     try {
       include(moved, errors_of(piece, 3.4 * 1.415 * geometry::unit_roundoff * farthest));
     } catch (const std::invalid_argument&) {
-      throw InputError(radius.place, "the curve is too small for its distance from the origin",
+      throw InputError(place, "the curve is too small for its distance from the origin",
                        "a larger curve, or one nearer to the origin");
     }
   }
@@ -262,12 +259,6 @@ ClosedCurve drawn_polar(const WrittenFormula& radius, Vector centre, const Layou
   curve.errors.normal += moved.normal;
   curve.errors.curvature += moved.curvature;
   return curve;
-}
-
-ClosedCurve drawn_parametric(const WrittenFormula& x, const WrittenFormula& y,
-                             const std::optional<ExactNumber>& from,
-                             const std::optional<ExactNumber>& to, const Layout& layout) {
-  return drawn(parametric_with(x, y, from, to), layout);
 }
 
 namespace {
@@ -360,6 +351,14 @@ std::optional<CurveFormulas> formulas_of(const TableSpec& spec) {
   for (const auto& [name, curve] : curves)
     if (spec.shape == name) return curve(spec);
   return {};
+}
+
+std::optional<CurveFormulas> formulas_of(const ObstacleSpec& o) {
+  if (o.shape == ObstacleSpec::Shape::parametric) return parametric_with(o.x, o.y, o.from, o.to);
+  if (o.shape != ObstacleSpec::Shape::polar) return {};
+  CurveFormulas curve{true, o.radius_formula};
+  curve.centre = o.center;
+  return curve;
 }
 
 Shape curve_of_formulas(const TableSpec& spec) {

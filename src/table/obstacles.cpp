@@ -96,9 +96,8 @@ ClosedCurve curve_of(const ObstacleSpec& o, const std::string& name) {
       return {turned(
           loop_of_pieces(o.loop, [&](std::size_t k) { return name_of_piece(o, name, k); }), true)};
     case Kind::polar:
-      return drawn_polar(o.radius_formula, point(o.center), layout);
     case Kind::parametric:
-      return drawn_parametric(o.x, o.y, o.from, o.to, layout);
+      return drawn(*formulas_of(o), layout);
     case Kind::spline:
       return {spline(o.points, o.place, layout)};
   }

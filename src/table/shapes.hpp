@@ -56,7 +56,8 @@ using WrittenCurve = std::variant<WrittenSegment, WrittenArc, WrittenCircle, Wri
 struct NamedCurve {
   std::string name;
   WrittenCurve curve;
-  int corner = 0;  ///< n if the corner at its start is declared to have the angle pi/n
+  int corner = 0;               ///< n if the corner at its start is declared to have the angle pi/n
+  double from = 0.0, to = 1.0;  ///< Of a curve of formulas: the parameters at its ends.
 };
 /// Curves of which each ends where the next begins and the last where the first begins. A full
 /// circle or ellipse is a chain of one.

@@ -1,5 +1,5 @@
-// Certified orbits inside curves that are given by formulas: against walls of the same shape, more
-// digits, doubles, and their way back.
+// Certified orbits among curves: against walls of the same shape, more digits, doubles, and their
+// way back.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,6 +34,11 @@ void expect_same(const CertifiedState& a, const CertifiedState& b, int digits) {
     EXPECT_EQ((a.*member).text(digits), (b.*member).text(digits));
 }
 
+const char* const four_pieces =
+    "shape = \"path\"\nloop = [{start = [1, 0], pieces = [{bezier = [[1, 0.5], [0.5, 1], [0, 1]]}, "
+    "{bezier = [[-0.5, 1], [-1, 0.5], [-1, 0]]}, {bezier = [[-1, -0.5], [-0.5, -1], [0, -1]]}, "
+    "{bezier = [[0.5, -1], [1, -0.5], [1, 0]]}]}]";
+
 TEST(CurveOrbit, ConicsWrittenAsCurvesHaveTheirDigits) {
   const std::pair<const char*, const char*> same[] = {
       {"shape = \"circle\"\nradius = \"1/3 + 1/2\"", "shape = \"polar\"\nradius = \"1/3 + 1/2\""},
@@ -42,14 +47,35 @@ TEST(CurveOrbit, ConicsWrittenAsCurvesHaveTheirDigits) {
       {"shape = \"ellipse\"\na = 2\nb = 0.7",
        "shape = \"parametric\"\nx = \"2*sin(t)\"\ny = \"0.7*cos(t)\""},
       {"shape = \"ellipse\"\na = 2\nb = 0.7",
-       "shape = \"polar\"\nradius = \"1.4/sqrt((0.7*cos(phi))^2 + (2*sin(phi))^2)\""}};
+       "shape = \"polar\"\nradius = \"1.4/sqrt((0.7*cos(phi))^2 + (2*sin(phi))^2)\""},
+      // A straight side, and one that is a Bézier curve.
+      {"shape = \"path\"\nloop = [{start = [-1, -1], pieces = [{line_to = [1, -1]}, {arc_via = [2, "
+       "0], arc_to = [1, 1]}, {line_to = [-1, 1]}, {ellipse_via = [-1.5, 0], ellipse_to = [-1, -1],"
+       " ellipse_ratio = 2}]}]",
+       "shape = \"path\"\nloop = [{start = [-1, -1], pieces = [{bezier = [[-0.5, -1], [0, -1], [1, "
+       "-1]]}, {arc_via = [2, 0], arc_to = [1, 1]}, {bezier = [[0.5, 1], [-0.1, 1], [-0.3, 1], "
+       "[-1, "
+       "1]]}, {ellipse_via = [-1.5, 0], ellipse_to = [-1, -1], ellipse_ratio = 2}]}]"},
+      // The spline through these points has rational control points.
+      {four_pieces, "shape = \"spline\"\npoints = [[1, 0], [0, 1], [-1, 0], [0, -1]]"},
+      {four_pieces, "shape = \"spline\"\npoints = [[1, 0], [0, -1], [-1, 0], [0, 1]]"},
+      // Obstacles.
+      {"shape = \"rectangle\"\nwidth = 1\nheight = 1\n[[table.obstacle]]\nshape = "
+       "\"circle\"\ncenter = [0.6, \"2/3\"]\nradius = 0.25\n[[table.obstacle]]\nshape = "
+       "\"ellipse\"\ncenter = [0.7, 0.2]\na = 0.2\nb = 0.1",
+       "shape = \"rectangle\"\nwidth = 1\nheight = 1\n[[table.obstacle]]\nshape = "
+       "\"polar\"\ncenter = [0.6, \"2/3\"]\nradius = \"1/4\"\n[[table.obstacle]]\nshape = "
+       "\"parametric\"\nx = \"0.7 + 0.2*sin(t)\"\ny = \"0.1*cos(t) + 1/5\""},
+      {"shape = \"annulus\"\nouter = 1\ninner = 0.2\noffset = -0.4",
+       "shape = \"parametric\"\nx = \"sin(t)\"\ny = \"cos(t)\"\n[[table.obstacle]]\nshape = "
+       "\"circle\"\ncenter = [-0.4, 0]\nradius = 0.2"}};
   for (const auto& [conic, curve] : same)
     for (const char* field : {"", "[field]\nB = 0.6\n", "[field]\nB = -3\n"}) {
       CertifiedOrbit one(system_of(conic, field), task_of(25, 42)),
           other(system_of(curve, field), task_of(25, 42));
       for (int n = 1; n <= 25; ++n) {
         const auto a = one.next(), b = other.next();
-        ASSERT_TRUE(a && b);
+        ASSERT_TRUE(a && b) << curve << field;
         EXPECT_EQ(b->number, static_cast<std::uint64_t>(n));
         expect_same(*a, *b, 40);
       }
@@ -63,10 +89,19 @@ TEST(CurveOrbit, ConicsWrittenAsCurvesHaveTheirDigits) {
     }
 }
 
-const char* const curves[] = {"shape = \"cardioid\"\nradius = 1",
-                              "shape = \"robnik\"\nradius = 1\nlambda = 0.3",
-                              "shape = \"superellipse\"\na = 1\nb = 1.5\nexponent = 4",
-                              "shape = \"egg\"\na = 1.2\nb = 1\nepsilon = 0.2"};
+const char* const curves[] = {
+    "shape = \"cardioid\"\nradius = 1",
+    "shape = \"robnik\"\nradius = 1\nlambda = 0.3",
+    "shape = \"superellipse\"\na = 1\nb = 1.5\nexponent = 4",
+    "shape = \"egg\"\na = 1.2\nb = 1\nepsilon = 0.2",
+    "shape = \"spline\"\npoints = [[-1, -1], [1.1, -1.2], [1.5, 0.3], [0.5, "
+    "1], [0.1, 0.9], [-1, 1.4]]",
+    "shape = \"path\"\nloop = [{start = [-1, -1], pieces = [{bezier = [[0, "
+    "-0.5], [1, -1]]}, {bezier = [[2, 0], [1, 0.1], [0.8, 0.2], [0.7, "
+    "1]]}, {bezier = [[-1, 2], [-0.1, 0], [-1, -1]]}]}]",
+    "shape = \"robnik\"\nradius = 1\nlambda = 0.3\n[[table.obstacle]]\n"
+    "shape = \"path\"\nstart = [0.2, -0.2]\npieces = [{bezier = [[-0.1, "
+    "0.4], [-0.3, -0.2]]}, {line_to = [0.2, -0.2]}]"};
 
 TEST(CurveOrbit, MoreDigitsBeginWithTheSame) {
   for (const char* curve : curves) {
@@ -136,6 +171,41 @@ TEST(CurveOrbit, TheWayBackLeadsToTheStart) {
     }
 }
 
+TEST(CurveOrbit, RaysLeaveThePlane) {
+  const std::string obstacle =
+      "shape = \"path\"\nloop = [{start = [2, 0], pieces = [{bezier = [[3, 1], [4, 0]]}, {bezier "
+      "= [[3, -1], [2, 0]]}]}]";
+  ExactSystem system = system_of(obstacle);
+  CertifiedOrbit away(system, task_of(5, 20));
+  EXPECT_EQ(away.finish().fate, CertifiedFate::unbounded) << away.end_state().reason;
+  EXPECT_EQ(away.end_state().collisions, 0U);
+  system.start.angle.reset();
+  system.start.direction = {ExactNumber("2"), ExactNumber("0.1")};
+  CertifiedOrbit towards(system, task_of(5, 20));
+  EXPECT_EQ(towards.finish().fate, CertifiedFate::unbounded) << towards.end_state().reason;
+  EXPECT_EQ(towards.end_state().collisions, 1U);
+  system.start.position = {ExactNumber("3"), ExactNumber("0")};
+  EXPECT_THROW(CertifiedOrbit(system, task_of(5, 20)), InputError);
+}
+
+// To 1e-25 beside a joint, and at it.
+TEST(CurveOrbit, JointsAreTold) {
+  ExactSystem system = system_of(curves[5]);
+  for (const char* beside : {"1e-25", "-1e-25", "0"}) {
+    system.start.position = {ExactNumber("0.3"), ExactNumber("0.5")};
+    system.start.angle.reset();
+    system.start.direction = {ExactNumber("0.7"), ExactNumber(std::string("-1.5 + ") + beside)};
+    CertifiedTask task = task_of(1, 20);
+    task.most_bits_a_doubt = 256;
+    CertifiedOrbit orbit(system, task);
+    const auto hit = orbit.next();
+    EXPECT_EQ(hit.has_value(), beside[0] != '0');
+    if (hit) {
+      EXPECT_EQ(hit->wall, beside[0] == '-' ? 0 : 1) << beside;
+    }
+  }
+}
+
 TEST(CurveOrbit, StartsOnTheWall) {
   ExactSystem system = system_of("shape = \"limacon\"\nradius = 1\nepsilon = 0.5");
   system.start = {};
@@ -156,6 +226,10 @@ TEST(CurveOrbit, RefusesByName) {
   ExactSystem on_the_wall = system_of("shape = \"polar\"\nradius = \"1 + 0.1*cos(phi)\"");
   on_the_wall.start.position = {ExactNumber("1.1"), ExactNumber("0")};
   EXPECT_THROW(CertifiedOrbit(on_the_wall, task_of(5, 20)), InputError);
+  EXPECT_THROW(CertifiedOrbit(system_of("shape = \"implicit\"\nequation = \"x^2 + y^2 - "
+                                        "1\"\ninside = [0, 0]"),
+                              task_of(5, 20)),
+               InputError);
 }
 
 TEST(CurveOrbit, SmallCirclesArePinned) {

@@ -31,7 +31,11 @@ const char* const systems[] = {
     "[table]\nshape = \"limacon\"\nradius = 1\nepsilon = 0.3\n",
     "[table]\nshape = \"parametric\"\nx = \"1.5*sin(t) + 0.1\"\ny = \"cos(t) + 0.2*cos(2*t)\"\n",
     "[table]\nshape = \"robnik\"\nradius = 1\nlambda = 0.2\n[field]\nB = 0.3\n",
-    "[table]\nshape = \"flower\"\nradius = 1\nepsilon = 0.1\npetals = 3\n[field]\nB = -0.4\n"};
+    "[table]\nshape = \"flower\"\nradius = 1\nepsilon = 0.1\npetals = 3\n[field]\nB = -0.4\n",
+    "[table]\nshape = \"spline\"\npoints = [[-1, -1], [1, -1.2], [1.4, 0.3], [0.1, 0.9]]\n",
+    "[table]\nshape = \"path\"\nloop = [{start = [-1, -1], pieces = [{bezier = [[0, -1.5], [1, "
+    "-1]]}, {arc_via = [1.5, 0], arc_to = [1, 1]}, {line_to = [-1, 1.2]}, {line_to = [-1, -1]}]}]"
+    "\n[[table.obstacle]]\nshape = \"circle\"\ncenter = [0.1, 0.1]\nradius = 0.4\n"};
 
 // Two ways to the same numbers: doubles with the tangent maps of flights and reflections, and balls
 // with the closed form across the orbit.
@@ -91,12 +95,13 @@ TEST(CertifiedPeriodicOrbit, SeesTheCurveInTheWay) {
   spec.shape = "flower";
   spec.numbers = {
       {"radius", ExactNumber("1")}, {"epsilon", ExactNumber("0.8")}, {"petals", ExactNumber("2")}};
-  const certify::CurveOfFormulas curve(*table::shapes::formulas_of(spec));
   const certify::Precision precision(128);
+  const certify::Pieces pieces(spec, table::shapes::written_shape(spec));
   const auto is_free = [&](double from, double to) {
     const certify::Ball s(from), t(to);
-    const certify::BallVector P = curve.at(s).point, Q = curve.at(t).point;
-    return certify::meets_nowhere_else(curve, {P, Q, Q - P, certify::Ball(0)}, s, t);
+    const certify::BallVector P = pieces[0].at(s).point, Q = pieces[0].at(t).point;
+    return certify::meets_nowhere_else(pieces, {P, Q, Q - P, certify::Ball(0)},
+                                       certify::Pieces::Spot{0, s}, certify::Pieces::Spot{0, t});
   };
   EXPECT_TRUE(is_free(0.25, -0.25));
   EXPECT_TRUE(is_free(0.25, 3.25));

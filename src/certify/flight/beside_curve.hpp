@@ -1,17 +1,19 @@
-// Flights from one point of a curve to another that meet it nowhere else.
+// Flights among pieces of curves: where they go, and proofs that they meet nothing before.
 #pragma once
 
 #include <optional>
 
-#include "certify/wall/curve_of_formulas.hpp"
+#include "certify/flight/flight.hpp"
+#include "certify/wall/piece.hpp"
 
 namespace carom::certify {
 
 /// A straight flight, or an arc of a circle.
 struct FlightBetween {
-  BallVector from, to;
-  BallVector direction;  ///< where it begins, of any length
-  Ball curvature;        ///< times that length; positive: it turns clockwise
+  BallVector from;
+  std::optional<BallVector> to;  ///< none: a ray, or the whole circle
+  BallVector direction;          ///< where it begins, of any length
+  Ball curvature;                ///< times that length; positive: it turns clockwise
 };
 /// Of a point e from where a flight begins: zero on its line or circle, and it rises where a
 /// flight leaves to the left of a curve. (2 d x e + k e.e, as geometry::side_of_flight.)
@@ -25,14 +27,15 @@ inline Ball slope_of_side(const BallVector& direction, const Ball& curvature, co
   return Ball(2) * (cross(direction, moves) + curvature * dot(e, moves));
 }
 
-/// Proves it: false where it is not so, or cannot be told. `first` and `last` enclose the curve's
-/// parameters at both ends; no first one: the flight begins off the curve.
-bool meets_nowhere_else(const CurveOfFormulas&, const FlightBetween&,
-                        const std::optional<Ball>& first, const Ball& last);
-/// Proves that a circle does not meet the curve at all; the flight's end counts for nothing.
-bool circle_meets_nothing(const CurveOfFormulas&, const FlightBetween&);
-/// How often the curve goes round a point, counter-clockwise. Nothing where that cannot be told:
-/// near the curve.
-std::optional<int> turns_round(const CurveOfFormulas&, const BallVector& point);
+/// About where a flight first leaves the domain, if it does: a guess, to begin a proof with.
+std::optional<Pieces::Spot> first_exit(const Pieces&, const FlightBetween&);
+/// Proves it: false where it is not so, or cannot be told. `first` and `last` enclose the
+/// parameters at both ends; no first one: the flight begins off the curves.
+bool meets_nowhere_else(const Pieces&, const FlightBetween&,
+                        const std::optional<Pieces::Spot>& first,
+                        const std::optional<Pieces::Spot>& last);
+/// How often the curves go round a point, counter-clockwise where the domain is on their left.
+/// Nothing where that cannot be told: near a curve.
+std::optional<int> turns_round(const Pieces&, const BallVector& point);
 
 }  // namespace carom::certify

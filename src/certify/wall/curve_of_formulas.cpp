@@ -20,119 +20,90 @@ Ball indeterminate() {
   return r;
 }
 
-/// A function of the parameter at all its values of a ball: value and two derivatives.
-struct Jet {
-  Ball value, first = 0, second = 0;
-  bool constant = true;
-};
-Jet variable(const Ball& t) { return {t, 1, 0, false}; }
-
-/// f(a), of the values and derivatives of f at a.
-Jet chain(const Jet& a, const Ball& f, const Ball& f1, const Ball& f2) {
-  if (a.constant) return {f};
-  return {f, f1 * a.first, f2 * square(a.first) + f1 * a.second, false};
-}
-Jet operator+(const Jet& a, const Jet& b) {
-  return {a.value + b.value, a.first + b.first, a.second + b.second, a.constant && b.constant};
-}
-Jet operator-(const Jet& a) { return {-a.value, -a.first, -a.second, a.constant}; }
-Jet operator*(const Jet& a, const Jet& b) {
-  return {a.value * b.value, a.first * b.value + a.value * b.first,
-          a.second * b.value + Ball(2) * (a.first * b.first) + a.value * b.second,
-          a.constant && b.constant};
-}
-Jet inverse(const Jet& a) {
-  const Ball f = Ball(1) / a.value, f1 = -square(f);
-  return chain(a, f, f1, Ball(-2) * (f * f1));
-}
-Jet without_derivatives(const Ball& value) {
-  return {value, indeterminate(), indeterminate(), false};
-}
-
-Ball power_of(const Ball& a, const Ball& exponent) {
-  Ball r;
-  if (arb_is_int(exponent.raw()) != 0) {  // products: of numbers below zero, and about it, too
-    fmpz_t n;
-    fmpz_init(n);
-    arf_get_fmpz(n, arb_midref(exponent.raw()), ARF_RND_NEAR);
-    arb_pow_fmpz(r.raw(), a.raw(), n, Precision::bits());
-    fmpz_clear(n);
-  } else {
-    arb_pow(r.raw(), a.raw(), exponent.raw(), Precision::bits());
-  }
+Series without_derivatives(const Ball& value) {
+  Series r(value);
+  for (slong k = 1; k < Series::terms(); ++k) r.set(k, indeterminate());
   return r;
 }
-/// Factors that vanish are left out: a negative power of zero has no value.
-Jet power(const Jet& a, const Ball& exponent) {
-  const Ball less = exponent - Ball(1), slope = exponent, bend = exponent * less;
-  const auto term = [&](const Ball& factor, const Ball& at) {
-    return sign(factor) == Sign::zero ? Ball(0) : factor * power_of(a.value, at);
-  };
-  return chain(a, term(1, exponent), term(slope, less), term(bend, less - Ball(1)));
+
+Series power(const Series& a, const Ball& exponent) {
+  Series r;
+  const slong n = Series::terms(), bits = Precision::bits();
+  const bool below = sign(exponent) == Sign::negative;
+  if (arb_is_int(exponent.raw()) != 0 && size_of(exponent) < Bound(1000.0)) {
+    // Products: of numbers below zero, and about it, too.
+    const auto times = static_cast<ulong>(std::fabs(exponent.to_double()));
+    arb_poly_pow_ui_trunc_binexp(r.raw(), a.raw(), times, n, bits);
+    return below ? Series(1.0) / r : r;
+  }
+  arb_poly_pow_arb_series(r.raw(), a.raw(), exponent.raw(), n, bits);
+  return r;
 }
 
-Jet of_one(Function function, const Jet& a) {
-  const slong bits = Precision::bits();
-  Ball f, g;
+Series of_one(Function function, const Series& a) {
+  const slong bits = Precision::bits(), n = Series::terms();
+  const Ball about = a[0];
+  Series f, g;
+  Ball value;
   switch (function) {
     case Function::root:
-      arb_sqrt(f.raw(), a.value.raw(), bits);
-      g = Ball(1) / (Ball(2) * f);
-      return chain(a, f, g, -(g / (Ball(2) * a.value)));
+      arb_poly_sqrt_series(f.raw(), a.raw(), n, bits);
+      arb_sqrt(value.raw(), about.raw(), bits);  // the series has a wider one
+      f.set(0, value);
+      return f;
     case Function::exp:
-      arb_exp(f.raw(), a.value.raw(), bits);
-      return chain(a, f, f, f);
+      arb_poly_exp_series(f.raw(), a.raw(), n, bits);
+      return f;
     case Function::log:
-      arb_log(f.raw(), a.value.raw(), bits);
-      g = Ball(1) / a.value;
-      return chain(a, f, g, -square(g));
+      arb_poly_log_series(f.raw(), a.raw(), n, bits);
+      return f;
     case Function::sin:
-      arb_sin_cos(f.raw(), g.raw(), a.value.raw(), bits);
-      return chain(a, f, g, -f);
+      arb_poly_sin_cos_series(f.raw(), g.raw(), a.raw(), n, bits);
+      return f;
     case Function::cos:
-      arb_sin_cos(f.raw(), g.raw(), a.value.raw(), bits);
-      return chain(a, g, -f, -g);
+      arb_poly_sin_cos_series(f.raw(), g.raw(), a.raw(), n, bits);
+      return g;
     case Function::tan:
-      arb_tan(f.raw(), a.value.raw(), bits);
-      g = Ball(1) + square(f);
-      return chain(a, f, g, Ball(2) * (f * g));
+      arb_poly_tan_series(f.raw(), a.raw(), n, bits);
+      return f;
     case Function::sinh:
-      arb_sinh_cosh(f.raw(), g.raw(), a.value.raw(), bits);
-      return chain(a, f, g, f);
     case Function::cosh:
-      arb_sinh_cosh(f.raw(), g.raw(), a.value.raw(), bits);
-      return chain(a, g, f, g);
     case Function::tanh:
-      arb_tanh(f.raw(), a.value.raw(), bits);
-      g = Ball(1) - square(f);
-      return chain(a, f, g, Ball(-2) * (f * g));
+      arb_poly_sinh_cosh_series(f.raw(), g.raw(), a.raw(), n, bits);
+      if (function != Function::tanh) return function == Function::sinh ? f : g;
+      f = f / g;
+      arb_tanh(value.raw(), about.raw(), bits);
+      f.set(0, value);
+      return f;
     default:  // abs
-      if (sign(a.value) == Sign::positive) return a;
-      if (sign(a.value) == Sign::negative) return -a;
-      arb_abs(f.raw(), a.value.raw());
-      return without_derivatives(f);
+      if (sign(about) == Sign::positive) return a;
+      if (sign(about) == Sign::negative) return -a;
+      arb_abs(value.raw(), about.raw());
+      return a.is_constant() ? Series(value) : without_derivatives(value);
   }
 }
 
-Jet of_two(Function function, const Jet& a, const Jet& b) {
+Series of_two(Function function, const Series& a, const Series& b) {
+  const slong bits = Precision::bits(), n = Series::terms();
   if (function != Function::atan2) {
-    const Sign order = sign(a.value - b.value);
+    const Sign order = sign(a[0] - b[0]);
     if (order == Sign::undecided || order == Sign::zero)
       return without_derivatives(indeterminate());
     return (order == Sign::negative) == (function == Function::least) ? a : b;
   }
   // Of y = a and x = b. It jumps where y = 0 > x.
-  if (sign(b.value) != Sign::positive && sign(a.value) != Sign::positive &&
-      sign(a.value) != Sign::negative)
+  const Ball y = a[0], x = b[0];
+  if (sign(x) != Sign::positive && sign(y) != Sign::positive && sign(y) != Sign::negative)
     return without_derivatives(indeterminate());
-  Jet r;
-  arb_atan2(r.value.raw(), a.value.raw(), b.value.raw(), Precision::bits());
-  const Ball distance2 = square(a.value) + square(b.value);
-  r.first = (b.value * a.first - a.value * b.first) / distance2;
-  r.second = (b.value * a.second - a.value * b.second -
-              Ball(2) * (r.first * (a.value * a.first + b.value * b.first))) /
-             distance2;
-  r.constant = a.constant && b.constant;
+  Series r = a, s = b;
+  arb_poly_derivative(r.raw(), r.raw(), bits);
+  arb_poly_derivative(s.raw(), s.raw(), bits);
+  r = (b * r - a * s) / (a * a + b * b);
+  arb_poly_integral(r.raw(), r.raw(), bits);
+  arb_poly_truncate(r.raw(), n);
+  Ball value;
+  arb_atan2(value.raw(), y.raw(), x.raw(), bits);
+  r.set(0, value);
   return r;
 }
 
@@ -140,44 +111,39 @@ Jet of_two(Function function, const Jet& a, const Jet& b) {
 /// nothing here is wrong.
 class InBalls {
  public:
-  using Value = Jet;
+  using Value = Series;
   static constexpr const base::Dialect& dialect = base::formula_dialect;
 
-  InBalls(const char* name, const Jet& variable, const std::map<std::string, ExactNumber>& numbers)
-      : name_(name), variable_(variable), numbers_(numbers) {}
+  explicit InBalls(const std::map<std::string, Series>& numbers) : numbers_(numbers) {}
 
   static std::string empty() { return {}; }
-  static void check_exponent(const Jet&) {}
-  static Jet operate(char what, const Jet& a, const Jet& b) {
-    return what == '+' ? a + b : what == '-' ? a + -b : what == '*' ? a * b : a * inverse(b);
+  static void check_exponent(const Series&) {}
+  static Series operate(char what, const Series& a, const Series& b) {
+    return what == '+' ? a + b : what == '-' ? a - b : what == '*' ? a * b : a / b;
   }
-  static Jet negative(const Jet& a) { return -a; }
-  static Jet power(const Jet& a, const Jet& b) {
-    if (b.constant) return certify::power(a, b.value);
+  static Series negative(const Series& a) { return -a; }
+  static Series power(const Series& a, const Series& b) {
+    if (b.is_constant()) return certify::power(a, b[0]);
     return of_one(Function::exp, b * of_one(Function::log, a));
   }
-  static Jet decimal(std::string_view text) { return {value_of(ExactNumber(text))}; }
-  Jet named(const std::string& word, bool) const {
-    if (word == name_) return variable_;
-    if (const auto found = numbers_.find(word); found != numbers_.end())
-      return {value_of(found->second)};
-    Jet r;
+  static Series decimal(std::string_view text) { return {value_of(ExactNumber(text))}; }
+  Series named(const std::string& word, bool) const {
+    if (const auto found = numbers_.find(word); found != numbers_.end()) return found->second;
+    Ball r;
     if (word == "pi")
-      arb_const_pi(r.value.raw(), Precision::bits());
+      arb_const_pi(r.raw(), Precision::bits());
     else
-      arb_const_e(r.value.raw(), Precision::bits());
+      arb_const_e(r.raw(), Precision::bits());
     return r;
   }
   static int arguments_of(const std::string& word) { return base::arguments_of_formula_word(word); }
-  static Jet call(const std::string& word, const std::vector<Jet>& of) {
+  static Series call(const std::string& word, const std::vector<Series>& of) {
     const Function function = base::formula_word(word)->function;
     return of.size() == 1 ? of_one(function, of[0]) : of_two(function, of[0], of[1]);
   }
 
  private:
-  std::string name_;
-  const Jet& variable_;
-  const std::map<std::string, ExactNumber>& numbers_;
+  const std::map<std::string, Series>& numbers_;
 };
 
 /// What is seen from a formula's text of how it repeats.
@@ -258,46 +224,25 @@ bool repeats(const table::shapes::CurveFormulas& curve) {
 
 CurveOfFormulas::CurveOfFormulas(table::shapes::CurveFormulas written)
     : written_(std::move(written)),
-      periodic_(repeats(written_)),
-      parts_(table::shapes::drawn(written_, {}).parameters) {}
-
-std::optional<CurveOfFormulas> CurveOfFormulas::of(const TableSpec& spec) {
-  if (!spec.obstacles.empty() || spec.lattice) return {};
-  std::optional<table::shapes::CurveFormulas> written = table::shapes::formulas_of(spec);
-  if (!written) return {};
-  return CurveOfFormulas(std::move(*written));
+      centre_{value_of(written_.centre.x), value_of(written_.centre.y)} {
+  for (const auto& [name, number] : written_.numbers) numbers_.emplace(name, value_of(number));
+  periodic = repeats(written_);
+  from = value_of(written_.from);
+  length = value_of(written_.to) - from;
 }
 
-CurvePlace CurveOfFormulas::at(const Ball& t) const {
-  const Jet parameter = variable(t);
-  InBalls meaning(written_.polar ? "phi" : "t", parameter, written_.numbers);
+VectorOf<Series> CurveOfFormulas::about(const Ball& t) const {
+  const Series parameter = Series::variable(t);
+  std::map<std::string, Series> numbers = numbers_;
+  numbers[written_.polar ? "phi" : "t"] = parameter;
+  InBalls meaning(numbers);
   const auto value = [&](const WrittenFormula& formula) {
     return base::Grammar(formula.text, formula.place, meaning).parse();
   };
-  Jet x, y;
-  if (written_.polar) {
-    const Jet radius = value(written_.first);
-    x = radius * of_one(Function::cos, parameter);
-    y = radius * of_one(Function::sin, parameter);
-  } else {
-    x = value(written_.first);
-    y = value(written_.second);
-  }
-  return {{x.value, y.value}, {x.first, y.first}, {x.second, y.second}};
+  const Series first = value(written_.first);
+  if (!written_.polar) return {first, value(written_.second)};
+  return {centre_.x + first * of_one(Function::cos, parameter),
+          centre_.y + first * of_one(Function::sin, parameter)};
 }
-
-std::pair<int, double> CurveOfFormulas::wall_at(double parameter) const {
-  const double begin = from().to_double(), round = length().to_double();
-  const double t = parameter - round * std::floor((parameter - begin) / round);
-  const auto found = std::find_if(parts_.begin(), parts_.end(), [&](const auto& part) {
-    return std::min(part.first, part.second) <= t && t <= std::max(part.first, part.second);
-  });
-  if (found == parts_.end()) return {0, 0.0};  // by rounding, at the joint of both ends
-  return {static_cast<int>(found - parts_.begin()),
-          (t - found->first) / (found->second - found->first)};
-}
-
-Ball CurveOfFormulas::from() const { return value_of(written_.from); }
-Ball CurveOfFormulas::length() const { return value_of(written_.to) - from(); }
 
 }  // namespace carom::certify

@@ -165,21 +165,23 @@ class Cutter {
 
 }  // namespace
 
-Ball arc_length(const WallOf<Ball>& w) {
-  if (w.form == Form::segment) return sqrt(dot(w.chord, w.chord));
+Ball angle_of(const WallOf<Ball>& w) {
   const auto seen = [&](const BallVector& P) { return angle_of(in_round_frame(w, P - w.centre)); };
   Ball whole_turn;
   arb_const_pi(whole_turn.raw(), Precision::bits());
   whole_turn = whole_turn + whole_turn;
-  const Ball start = seen(w.from);
-  Ball turn = whole_turn;
-  if (!w.closed) {
-    turn = Ball(w.turn) * (seen(w.to) - start);
-    const Sign forwards = sign(turn);
-    if (forwards == Sign::undecided) return turn.widened(Bound(HUGE_VAL));  // nothing is known
-    if (forwards != Sign::positive) turn = turn + whole_turn;
-  }
+  if (w.closed) return whole_turn;
+  const Ball turn = Ball(w.turn) * (seen(w.to) - seen(w.from));
+  const Sign forwards = sign(turn);
+  if (forwards == Sign::undecided) return turn.widened(Bound(HUGE_VAL));  // nothing is known
+  return forwards == Sign::positive ? turn : turn + whole_turn;
+}
+
+Ball arc_length(const WallOf<Ball>& w) {
+  if (w.form == Form::segment) return sqrt(dot(w.chord, w.chord));
+  const Ball turn = angle_of(w);
   if (w.form != Form::ellipse) return sqrt(w.radius2) * turn;
+  const Ball start = angle_of(in_round_frame(w, w.from - w.centre));
   const EllipseLength length(w);
   return Ball(w.turn) * (length.to(start + Ball(w.turn) * turn) - length.to(start));
 }

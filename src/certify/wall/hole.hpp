@@ -69,7 +69,9 @@ Verdict in_hole(const HoleOf<N>& hole, const WallOf<N>& w, const VectorOf<N>& P)
   return within(hole.first, hole.last) == wide ? wide : Verdict::undecided;
 }
 
-/// The length of a wall to the present precision.
+/// By how much a circle or ellipse turns, in the frame where it is a circle, and the length of a
+/// wall; to the present precision.
+Ball angle_of(const WallOf<Ball>&);
 Ball arc_length(const WallOf<Ball>&);
 
 /// Signs of numbers as written, undecided where neither balls of 2^14 bits nor rational numbers

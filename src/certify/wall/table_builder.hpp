@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "carom/base/error.hpp"
+#include "certify/number/exact_value.hpp"
 #include "certify/wall/ball_table.hpp"
 #include "table/shapes.hpp"
 
@@ -14,6 +15,14 @@ namespace carom::certify {
 /// whole), the cosine and sine of an angle plus a part of whole turns.
 template <class N>
 struct Source;
+template <>
+struct Source<Ball> {
+  static Ball value(const ExactNumber& number) { return value_of(number); }
+  static BallVector direction(const ExactNumber& angle, long part = 0, long whole = 1) {
+    const CosSin d = direction_of(angle, part, whole);
+    return {d.cos, d.sin};
+  }
+};
 
 template <class N>
 struct WallBuilder {
@@ -52,8 +61,8 @@ struct WallBuilder {
 
  private:
   [[noreturn]] static void refuse(const Place& place) {
-    throw InputError(place, "orbits are not certified beside Bézier curves",
-                     "walls of segments, circles and ellipses");
+    throw InputError(place, "orbits are not certified beside Bézier curves on a lattice",
+                     "walls of segments, circles and ellipses, or no lattice");
   }
   static WallOf<N> arc_through(const VectorOf<N>& from, const VectorOf<N>& via,
                                const VectorOf<N>& to, const Place& place) {
