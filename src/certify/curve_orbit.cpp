@@ -13,6 +13,7 @@
 #include "certify/flight/beside_curve.hpp"
 #include "certify/followed_orbit.hpp"
 #include "certify/number/exact_value.hpp"
+#include "certify/wall/holes_of_pieces.hpp"
 #include "certify/wall/system_check.hpp"
 
 namespace carom::certify {
@@ -46,11 +47,8 @@ class CurveOrbit final : public FollowedOrbit {
       }
       const Precision precision(bits_);
       const Step step = take_step();
-      if (step != Step::hit && step != Step::unclear && is_accurate()) {
-        finish(step == Step::pinned      ? CertifiedFate::pinned
-               : step == Step::unbounded ? CertifiedFate::unbounded
-                                         : CertifiedFate::completed,
-               "");
+      if (step == Step::ended && is_accurate()) {
+        finish(fate_, "");
         break;
       }
       if (step != Step::hit || !(hits_ <= given_ || is_accurate())) {
@@ -72,11 +70,9 @@ class CurveOrbit final : public FollowedOrbit {
   const CertifiedEffort& effort() override { return effort_; }
 
  private:
-  enum class Step : unsigned char { hit, stopped, pinned, unbounded, unclear };
+  enum class Step : unsigned char { hit, ended, unclear };
 
   void check() {
-    if (!system_.table->holes.empty())
-      throw InputError(Place{}, "orbits among curves are certified without holes", "--closed");
     check_velocity(system_.start);
     if (system_.start.wall < 0) check_inside();
   }
@@ -101,7 +97,9 @@ class CurveOrbit final : public FollowedOrbit {
     effort_.bits = bits_;
     hits_ = 0;
     const Precision precision(bits_);
+    holes_.reset();
     pieces_.emplace(*system_.spec, shape_);
+    holes_.emplace(system_, *pieces_);
     const ExactStart& start = system_.start;
     time_ = Ball(0);
     wall_ = start.wall;
@@ -168,7 +166,7 @@ class CurveOrbit final : public FollowedOrbit {
       const bool turns = sign(curvature_) != Sign::zero;
       const bool may_end = turns ? !spot_ : system_.table->extent != Extent::bounded;
       if (!may_end || !meets_nowhere_else(*pieces_, ahead, spot_, {})) return Step::unclear;
-      return turns ? Step::pinned : Step::unbounded;
+      return end_as(turns ? CertifiedFate::pinned : CertifiedFate::unbounded);
     }
     const Piece& piece = (*pieces_)[about->piece];
     const auto side = [&](const CurvePlace& p) {
@@ -198,6 +196,10 @@ class CurveOrbit final : public FollowedOrbit {
     return Step::unclear;
   }
 
+  Step end_as(CertifiedFate fate) {
+    fate_ = fate;
+    return Step::ended;
+  }
   Step arrive(const Pieces::Spot& hit, const BallVector& point, const BallVector& tangent) {
     const BallVector chord = point - position_;
     // An arc turns by as much before the middle of its chord as after it.
@@ -216,15 +218,22 @@ class CurveOrbit final : public FollowedOrbit {
       if (later == Sign::positive) {
         fly(rest * speed_);
         time_ = last;
-        return Step::stopped;
+        return end_as(CertifiedFate::completed);
       }
+    }
+    const Passage passage = holes_->passage(hit);
+    if (passage.verdict == Verdict::undecided) return Step::unclear;
+    position_ = point;
+    time_ = time;
+    if (passage.verdict == Verdict::yes) {
+      direction_ = arrival;
+      end_.hole = passage.hole;
+      return end_as(CertifiedFate::escaped);
     }
     const BallVector normal = left(tangent);
     const Ball twice = (Ball(2) * dot(arrival, normal)) / dot(normal, normal);
     direction_ = arrival - twice * normal;
-    position_ = point;
     spot_ = hit;
-    time_ = time;
     std::tie(wall_, u_) = pieces_->wall_at(hit);
     ++hits_;
     return Step::hit;
@@ -276,6 +285,7 @@ class CurveOrbit final : public FollowedOrbit {
   const std::function<bool()> interrupted_;
   const table::shapes::Shape shape_;
   std::optional<Pieces> pieces_;
+  std::optional<HolesOfPieces> holes_;
   slong bits_ = 0;
   // After the last hit.
   BallVector position_, direction_;
@@ -285,6 +295,7 @@ class CurveOrbit final : public FollowedOrbit {
   double u_ = 0.0;
   std::uint64_t hits_ = 0, given_ = 0;
   CertifiedHit last_;
+  CertifiedFate fate_{};  ///< of a step that ends it
   bool done_ = false;
   CertifiedEnd end_;
   CertifiedEffort effort_;

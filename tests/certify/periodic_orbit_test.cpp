@@ -32,6 +32,7 @@ const char* const systems[] = {
     "[table]\nshape = \"parametric\"\nx = \"1.5*sin(t) + 0.1\"\ny = \"cos(t) + 0.2*cos(2*t)\"\n",
     "[table]\nshape = \"robnik\"\nradius = 1\nlambda = 0.2\n[field]\nB = 0.3\n",
     "[table]\nshape = \"flower\"\nradius = 1\nepsilon = 0.1\npetals = 3\n[field]\nB = -0.4\n",
+    "[table]\nshape = \"implicit\"\nequation = \"x^4 + y^2 + 0.2*x - 1\"\ninside = [0.1, 0.13]\n",
     "[table]\nshape = \"spline\"\npoints = [[-1, -1], [1, -1.2], [1.4, 0.3], [0.1, 0.9]]\n",
     "[table]\nshape = \"path\"\nloop = [{start = [-1, -1], pieces = [{bezier = [[0, -1.5], [1, "
     "-1]]}, {arc_via = [1.5, 0], arc_to = [1, 1]}, {line_to = [-1, 1.2]}, {line_to = [-1, -1]}]}]"

@@ -245,4 +245,77 @@ VectorOf<Series> CurveOfFormulas::about(const Ball& t) const {
           centre_.y + first * of_one(Function::sin, parameter)};
 }
 
+namespace {
+geometry::Vector normal_at_start(const geometry::Bezier& curve) {
+  const geometry::Vector way = curve.control(1) - curve.from;
+  return (1.0 / length(way)) * left(way);
+}
+}  // namespace
+
+ImplicitPiece::ImplicitPiece(const WrittenFormula& equation, const geometry::Bezier& beside,
+                             const geometry::Bezier& next)
+    : equation_(equation),
+      beside_(beside),
+      first_(normal_at_start(beside)),
+      last_(normal_at_start(next)),
+      off_(Ball(0).widened(Bound(0x1p-36 * geometry::length(beside.to - beside.from)))) {
+  if (!is_beside(lowest, highest, 14))
+    throw InputError(equation.place, "the curve is not proven to lie beside its Bézier curves",
+                     "r(phi), or x(t) and y(t)");
+}
+
+Series ImplicitPiece::equation(const VectorOf<Series>& at) const {
+  const std::map<std::string, Series> numbers{{"x", at.x}, {"y", at.y}};
+  InBalls meaning(numbers);
+  return base::Grammar(equation_.text, equation_.place, meaning).parse();
+}
+VectorOf<Series> ImplicitPiece::normal(const Ball& t) const {
+  const Series share = Series::variable(t);
+  const geometry::Vector more = last_ - first_;
+  return {Series(first_.x) + share * more.x, Series(first_.y) + share * more.y};
+}
+Series ImplicitPiece::across(const Ball& t, const Ball& s) const {
+  const Series::Terms two(2);
+  const VectorOf<Series> base = beside_.about(t), n = normal(t);
+  const Series way = Series::variable(s);
+  return equation({base.x[0] + way * n.x[0], base.y[0] + way * n.y[0]});
+}
+
+/// The equation has opposite signs on both sides, and only rises or falls between them.
+bool ImplicitPiece::is_beside(double low, double high, int depth) const {
+  const Precision precision(128);
+  const Series::Terms nine(9);
+  const Ball middle(0.5 * (low + high)), half = Ball(0).widened(Bound(0.5 * (high - low)));
+  // Taylor's series about the middle; the coefficient of its last term is that of somewhere.
+  Series along = equation(beside_.about(middle));
+  along.set(8, equation(beside_.about(middle + half))[8]);
+  const Ball value = along.shifted(half)[0], slope = across(middle + half, off_)[1],
+             end = slope * Ball(off_.radius().to_double());
+  const Sign rises = sign(slope);
+  if ((rises == Sign::positive || rises == Sign::negative) && sign(end - value) == rises &&
+      sign(end + value) == rises)
+    return true;
+  const double there = 0.5 * (low + high);
+  return depth > 0 && is_beside(low, there, depth - 1) && is_beside(there, high, depth - 1);
+}
+
+VectorOf<Series> ImplicitPiece::about(const Ball& t) const {
+  if (!(sign(t - Ball(lowest)) == Sign::positive && sign(Ball(highest) - t) == Sign::positive))
+    return {without_derivatives(indeterminate()), without_derivatives(indeterminate())};
+  Ball off = off_, slope = across(t, off)[1];
+  for (;;) {  // Newton's steps, as long as they help
+    const Ball middle = off.midpoint(), nearer = middle - across(t, middle)[0] / slope;
+    if (!(nearer.radius() * Bound(2.0) < off.radius())) break;
+    off = nearer;
+    slope = across(t, off)[1];
+  }
+  const VectorOf<Series> base = beside_.about(t), n = normal(t);
+  Series way(off);
+  for (slong k = 1, terms = Series::terms(); k < terms; ++k) {
+    const Series::Terms some(k + 1);
+    way.set(k, -(equation(base + way * n)[k] / slope));
+  }
+  return base + way * n;
+}
+
 }  // namespace carom::certify

@@ -15,30 +15,6 @@ namespace {
 
 using namespace table::shapes;
 
-/// A Bézier curve or a segment.
-class PolynomialPiece final : public Piece {
- public:
-  explicit PolynomialPiece(std::vector<BallVector> control) {
-    // Of u^k: the differences of the k-th order, times the binomial.
-    Ball binomial(1);
-    for (slong k = 0, n = static_cast<slong>(control.size()) - 1; !control.empty(); ++k) {
-      x_.set(k, binomial * control.front().x);
-      y_.set(k, binomial * control.front().y);
-      binomial = binomial * Ball(static_cast<int>(n - k)) / Ball(static_cast<int>(k + 1));
-      for (std::size_t i = 0; i + 1 < control.size(); ++i) control[i] = control[i + 1] - control[i];
-      control.pop_back();
-    }
-  }
-  VectorOf<Series> about(const Ball& t) const override {
-    // Formulas of small numbers are narrower.
-    const Ball middle = t.midpoint(), rest = t - middle;
-    return {x_.shifted(middle).shifted(rest), y_.shifted(middle).shifted(rest)};
-  }
-
- private:
-  Series x_, y_;
-};
-
 /// Of a circle or an ellipse, by the angle from its start in the frame where it is a circle.
 class ConicPiece final : public Piece {
  public:
@@ -87,7 +63,34 @@ std::unique_ptr<Piece> piece_of(const WrittenCurve& curve) {
   return std::make_unique<ConicPiece>(wall);
 }
 
+std::vector<BallVector> control_of(const geometry::Bezier& curve) {
+  std::vector<BallVector> control;
+  for (int i = 0; i <= curve.degree; ++i)
+    control.push_back({curve.control(i).x, curve.control(i).y});
+  return control;
+}
+
 }  // namespace
+
+PolynomialPiece::PolynomialPiece(std::vector<BallVector> control) {
+  // Of u^k: the differences of the k-th order, times the binomial.
+  Ball binomial(1);
+  for (slong k = 0, n = static_cast<slong>(control.size()) - 1; !control.empty(); ++k) {
+    x_.set(k, binomial * control.front().x);
+    y_.set(k, binomial * control.front().y);
+    binomial = binomial * Ball(static_cast<int>(n - k)) / Ball(static_cast<int>(k + 1));
+    for (std::size_t i = 0; i + 1 < control.size(); ++i) control[i] = control[i + 1] - control[i];
+    control.pop_back();
+  }
+}
+PolynomialPiece::PolynomialPiece(const geometry::Bezier& curve)
+    : PolynomialPiece(control_of(curve)) {}
+
+VectorOf<Series> PolynomialPiece::about(const Ball& t) const {
+  // Formulas of small numbers are narrower.
+  const Ball middle = t.midpoint(), rest = t - middle;
+  return {x_.shifted(middle).shifted(rest), y_.shifted(middle).shifted(rest)};
+}
 
 Pieces::Pieces(const TableSpec& spec, const Shape& shape) {
   const std::size_t own = shape.loops.size() - spec.obstacles.size();
@@ -103,9 +106,11 @@ Pieces::Pieces(const TableSpec& spec, const Shape& shape) {
       for (std::size_t k = 0; k < chain.size(); ++k)
         parts_[parts_.size() - chain.size() + k] = {pieces_.size() - 1, chain[k].from, chain[k].to};
     } else if (!obstacle && spec.shape == "implicit") {
-      throw InputError(spec.shape_place,
-                       "orbits are not certified beside curves that an equation gives",
-                       "r(phi), or x(t) and y(t)");
+      for (std::size_t k = 0; k < chain.size(); ++k)
+        add(std::make_unique<ImplicitPiece>(
+                spec.formulas.at("equation"), std::get<geometry::Bezier>(chain[k].curve),
+                std::get<geometry::Bezier>(chain[(k + 1) % chain.size()].curve)),
+            1);
     } else {
       std::vector<BallVector> points;
       for (const SplinePoint& p : points_in_order(
@@ -125,6 +130,23 @@ void Pieces::add(std::unique_ptr<Piece> piece, std::size_t walls) {
 Pieces::Spot Pieces::spot(int wall, double u) const {
   const Part& part = parts_[static_cast<std::size_t>(wall)];
   return {part.piece, (*this)[part.piece].parameter(part.from + u * (part.to - part.from))};
+}
+
+Pieces::Ends Pieces::ends(int wall) const {
+  const auto index = static_cast<std::size_t>(wall);
+  const Part& part = parts_[index];
+  const Walls& walls = pieces_[part.piece];
+  const Piece& piece = *walls.piece;
+  const Ball end = piece.from + piece.length;
+  const bool forwards = piece.turn > 0.0;
+  return {part.piece,
+          index > walls.first ? Ball(part.from)
+          : forwards          ? piece.from
+                              : end,
+          index + 1 < walls.first + walls.count ? Ball(part.to)
+          : forwards                            ? end
+                                                : piece.from,
+          walls.count};
 }
 
 std::pair<int, double> Pieces::wall_at(const Spot& spot) const {

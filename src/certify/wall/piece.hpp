@@ -42,6 +42,17 @@ class Piece {
   bool periodic = false;  ///< Does it repeat after its length, and is the curve beyond its ends?
 };
 
+/// A Bézier curve or a segment.
+class PolynomialPiece final : public Piece {
+ public:
+  explicit PolynomialPiece(std::vector<BallVector> control);
+  explicit PolynomialPiece(const geometry::Bezier&);
+  VectorOf<Series> about(const Ball& t) const override;
+
+ private:
+  Series x_, y_;
+};
+
 /// All of them, to the present precision.
 class Pieces {
  public:
@@ -57,6 +68,13 @@ class Pieces {
   /// The point of a table's wall, and the wall on which one is, of one or more rounds.
   Spot spot(int wall, double u) const;
   std::pair<int, double> wall_at(const Spot&) const;
+  /// Where a wall begins and ends, and how many walls its piece has.
+  struct Ends {
+    std::size_t piece;
+    Ball first, last;
+    std::size_t of;
+  };
+  Ends ends(int wall) const;
 
  private:
   struct Walls {
