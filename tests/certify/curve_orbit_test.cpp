@@ -2,8 +2,8 @@
 // way back.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <string>
 
 #include "carom/base/error.hpp"
@@ -229,6 +229,32 @@ TEST(CurveOrbit, HolesBeginAndEndAtArcLengths) {
   EXPECT_EQ(fate("3.995 + 1e-25"), CertifiedFate::escaped);
   EXPECT_EQ(fate("3.995 - 1e-25"), CertifiedFate::completed);
   EXPECT_EQ(fate("4.005"), CertifiedFate::undecided);
+  // To the end of a wall.
+  ExactSystem corner = system_of(
+      "shape = \"path\"\nloop = [{start = [-1, -1], pieces = [{line_to = [1, -1]}, {bezier = [[2, "
+      "0], "
+      "[1, 1]]}, {line_to = [-1, 1]}, {line_to = [-1, -1]}]}]" +
+      hole("wall_1", "1.95", "0.1"));
+  corner.start.position = {ExactNumber("0.3"), ExactNumber("0.5")};
+  corner.start.angle.reset();
+  corner.start.direction = {ExactNumber("0.7 - 1e-25"), ExactNumber("-1.5")};
+  CertifiedOrbit out(corner, task_of(3, 20));
+  EXPECT_EQ(out.finish().fate, CertifiedFate::escaped) << out.end_state().reason;
+}
+
+TEST(CurveOrbit, DrawingsAreThePathsThatTheyAreReadAs) {
+  const std::string file = testing::TempDir() + "certified_drawing.svg";
+  std::ofstream(file) << "<svg xmlns='http://www.w3.org/2000/svg'><path d='M -1 1 Q 0 0.5 1 1 L 1 "
+                         "-1 L -1 -1 Z'/><circle cx='0' cy='0' r='0.1'/></svg>";
+  CertifiedOrbit drawn(system_of("shape = \"svg\"\npath = \"" + file + "\"\nscale = 1"),
+                       task_of(20, 42)),
+      written(system_of("shape = \"path\"\nloop = [{start = [-1, -1], pieces = [{bezier = [[0, "
+                        "-0.5], [1, -1]]}, {line_to = [1, 1]}, {line_to = [-1, 1]}, {line_to = "
+                        "[-1, -1]}]}]\n[[table.obstacle]]\nshape = \"circle\"\ncenter = [0, "
+                        "0]\nradius = 0.1"),
+              task_of(20, 42));
+  expect_same(drawn.finish(), written.finish(), 40);
+  EXPECT_EQ(drawn.end_state().collisions, 20U);
 }
 
 TEST(CurveOrbit, RaysLeaveThePlane) {
@@ -286,6 +312,11 @@ TEST(CurveOrbit, RefusesByName) {
   ExactSystem on_the_wall = system_of("shape = \"polar\"\nradius = \"1 + 0.1*cos(phi)\"");
   on_the_wall.start.position = {ExactNumber("1.1"), ExactNumber("0")};
   EXPECT_THROW(CertifiedOrbit(on_the_wall, task_of(5, 20)), InputError);
+  ExactSystem lattice = system_of(
+      "shape = \"plane\"\n[[table.obstacle]]\nshape = \"polar\"\ncenter = [0, 0]\nradius = \"0.1 "
+      "+ 0.01*cos(phi)\"",
+      "[lattice]\nvectors = [[1, 0], [0, 1]]\n");
+  EXPECT_THROW(CertifiedOrbit(lattice, task_of(5, 20)), InputError);
 }
 
 TEST(CurveOrbit, SmallCirclesArePinned) {

@@ -102,9 +102,20 @@ Passage HolesOfPieces::passage(const Pieces::Spot& spot) const {
     if (found == opening.stretches.end()) continue;
     const Piece& piece = pieces_[spot.piece];
     const Stretch& stretch = found->second;
-    const double begin = piece.from.to_double(), round = piece.length.to_double();
-    const int rounds = static_cast<int>(std::floor((spot.t.to_double() - begin) / round));
-    const Ball along = lengths_.at(spot.piece).to(spot.t - Ball(rounds) * piece.length);
+    const Ball end = piece.from + piece.length;
+    Ball t = spot.t;
+    if (piece.periodic)
+      t = t -
+          Ball(std::floor((t - piece.from).to_double() / piece.length.to_double())) * piece.length;
+    if (sign(end - t) == Sign::negative) t = t - piece.length;
+    if (sign(t - piece.from) == Sign::negative) t = t + piece.length;
+    // Beside the joint of both ends, walls that begin or end there cannot be told.
+    if (!stretch.whole &&
+        !(sign(t - piece.from) == Sign::positive && sign(end - t) == Sign::positive)) {
+      unknown = {Verdict::undecided, opening.hole};
+      continue;
+    }
+    const Ball along = lengths_.at(spot.piece).to(t);
     const Ball there = piece.turn > 0.0 ? along - stretch.start : stretch.start - along;
     const Verdict on_these =
         stretch.whole ? Verdict::yes
