@@ -41,8 +41,9 @@ TEST(Returns, MeansAreThoseOfKacsLemma) {
 // The centre of a disc meets other curves than the walls.
 TEST(Returns, NothingIsExpectedOfDiscs) {
   SystemOverrides overrides;
-  overrides.set = {
-      {"table.hole", "[]"}, {"section.on", "wall:bottom"}, {"particles.radius", "0.1"}};
+  overrides.set = {{"table.hole", "[]"},
+                   {"section.on", "wall:bottom"},
+                   {"interaction", "{kind=\"hard-discs\", radius=0.1}"}};
   EXPECT_FALSE(expected_returns(load_system("stadium", overrides).system));
 }
 

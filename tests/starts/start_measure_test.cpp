@@ -45,7 +45,8 @@ TEST(StartMeasure, IsStationaryWhereNothingIsLeftOut) {
       "[interaction]\nkind = \"coulomb\"\nstrength = 1\n[particles]\nenergy = 3\ncount = ";
   EXPECT_EQ(why(uniform, charges + "1\n"), "");
   EXPECT_NE(why(uniform, charges + "2\n"), "");
-  const std::string discs = "[particles]\nspeed = 1\nradius = 0.1\ncount = ";
+  const std::string discs =
+      "[interaction]\nkind = \"hard-discs\"\nradius = 0.1\n[particles]\nspeed = 1\ncount = ";
   EXPECT_EQ(why(uniform, discs + "1\n"), "");
   EXPECT_NE(why(uniform, discs + "2\n"), "");
 }

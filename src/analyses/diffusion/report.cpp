@@ -133,12 +133,11 @@ std::vector<std::string> doubts_of_growth(const DiffusionFit& fit,
   const bool enough = std::isfinite(fit.exponent.value);
   const Estimate& a = enough ? fit.exponent : fit.local_exponent;
   const double off = std::abs(a.value - 1);
-  if (!(off <= 5 * a.error) && (off > 0.05 || (enough && a.error > 0)))
-    doubts.emplace_back("the MSD does not grow as t in the window: D depends on it");
-  // c is the most of it: it has hardly begun to grow, or never will.
-  else if (fit.local_exponent.value < 0.5)
+  if (fit.local_exponent.value < 0.5)  // it has hardly begun to grow, or never will
     doubts.emplace_back(
         "the MSD hardly grows in the window: particles may stay near their starts, where D is 0");
+  else if (!(off <= 5 * a.error) && (off > 0.05 || (enough && a.error > 0)))
+    doubts.emplace_back("the MSD does not grow as t in the window: D depends on it");
   const auto at = [&](double t) {
     return std::find_if(points.begin(), points.end(),
                         [&](const MomentPoint& p) { return p.t >= t; });

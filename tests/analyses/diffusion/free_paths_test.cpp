@@ -172,7 +172,10 @@ TEST(FreePaths, NeedFreeParticles) {
       std::string(circle) + "[[potential]]\nkind = \"linear\"\nforce = [0.1, 0]\n", 10, 10);
   EXPECT_THROW(run_diffusion(system), InputError);
   const auto discs = [](const char* count) {
-    return counting(std::string(circle) + "[particles]\nradius = 0.1\ncount = " + count, 10, 10);
+    return counting(
+        std::string(circle) +
+            "[interaction]\nkind = \"hard-discs\"\nradius = 0.1\n[particles]\ncount = " + count,
+        10, 10);
   };
   EXPECT_NO_THROW(run_diffusion(discs("1\n")));
   EXPECT_THROW(run_diffusion(discs("2\n")), InputError);  // speeds change where they meet
