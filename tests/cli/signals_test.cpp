@@ -53,7 +53,8 @@ TEST(Signals, EndASweepWhileItReadsASystem) {
   const Shell shell;
   shell(
       "cat > broad.toml <<'END'\n[lattice]\nvectors = [[1, 0], [0, 1]]\n[[potential]]\nkind = "
-      "\"fermi\"\nheight = 1\nradius = 0.25\nsoftness = 0.35\nlattice = true\n[particles]\nenergy = "
+      "\"fermi\"\nheight = 1\nradius = 0.25\nsoftness = 0.35\nlattice = true\n[particles]\nenergy "
+      "= "
       "100\n[integrator]\nstep = 0.01\n[initial]\nkind = \"uniform\"\nEND\n");
   const Outcome o = shell(
       "$carom escape ./broad.toml --sweep run.seed=list:1,2 --t-max 0.1 --trajectories 2 -o s.h5 & "
