@@ -49,7 +49,8 @@ def test_a_drawing_gives_the_orbits_of_the_same_table_in_toml(name, tmp_path):
     assert "svg" not in drawn.to_toml()
     one, other = (carom.run(table, collisions=200, t_max=1e9) for table in (drawn, same))
     assert len(one.hits) == 200
-    assert one.hits.tobytes() == other.hits.tobytes()
+    for name in one.hits.dtype.names:  # bytes between them may be anything
+        assert one.hits[name].tobytes() == other.hits[name].tobytes()
 
 
 @pytest.mark.parametrize(

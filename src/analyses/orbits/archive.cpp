@@ -223,7 +223,7 @@ StoredOrbits read_orbits(const std::string& name) {
     if (extra.maslov != no_index) o.maslov = extra.maslov;
     const std::complex<double> large(extra.real, extra.imaginary);
     o.multipliers[0] = large;
-    o.multipliers[1] = large.imag() != 0.0 ? std::conj(large) : 1.0 / large;
+    o.multipliers[1] = large.imag() != 0.0 ? std::conj(large) : 1.0 / large.real();
     for (std::int32_t n = 0; n < extra.hits; ++n, ++row) {
       o.hits.push_back(hits.at(row));
       o.half_turns.push_back(hit_extras.at(row).half_turn);
