@@ -40,6 +40,12 @@ const char* const four_pieces =
     "{bezier = [[-0.5, 1], [-1, 0.5], [-1, 0]]}, {bezier = [[-1, -0.5], [-0.5, -1], [0, -1]]}, "
     "{bezier = [[0.5, -1], [1, -0.5], [1, 0]]}]}]";
 
+void start_from(ExactSystem& system, const char* x, const char* y, const char* vx, const char* vy) {
+  system.start.position = {ExactNumber(x), ExactNumber(y)};
+  system.start.angle.reset();
+  system.start.direction = {ExactNumber(vx), ExactNumber(vy)};
+}
+
 TEST(CurveOrbit, ConicsWrittenAsCurvesHaveTheirDigits) {
   const std::pair<const char*, const char*> same[] = {
       {"shape = \"circle\"\nradius = \"1/3 + 1/2\"", "shape = \"polar\"\nradius = \"1/3 + 1/2\""},
@@ -215,9 +221,7 @@ TEST(CurveOrbit, HolesBeginAndEndAtArcLengths) {
   const std::string cardioid = curves[0];
   const auto fate = [&](const std::string& center) {
     ExactSystem system = system_of(cardioid + hole("curve", center.c_str(), "0.01"));
-    system.start.position = {ExactNumber("1"), ExactNumber("0")};
-    system.start.angle.reset();
-    system.start.direction = {ExactNumber("1"), ExactNumber("0")};
+    start_from(system, "1", "0", "1", "0");
     CertifiedTask task = task_of(1, 20);
     task.most_bits_a_doubt = 256;
     CertifiedOrbit orbit(system, task);
@@ -235,9 +239,7 @@ TEST(CurveOrbit, HolesBeginAndEndAtArcLengths) {
       "0], "
       "[1, 1]]}, {line_to = [-1, 1]}, {line_to = [-1, -1]}]}]" +
       hole("wall_1", "1.95", "0.1"));
-  corner.start.position = {ExactNumber("0.3"), ExactNumber("0.5")};
-  corner.start.angle.reset();
-  corner.start.direction = {ExactNumber("0.7 - 1e-25"), ExactNumber("-1.5")};
+  start_from(corner, "0.3", "0.5", "0.7 - 1e-25", "-1.5");
   CertifiedOrbit out(corner, task_of(3, 20));
   EXPECT_EQ(out.finish().fate, CertifiedFate::escaped) << out.end_state().reason;
 }
@@ -403,9 +405,7 @@ TEST(CurveOrbit, StartsBetweenTheCurveAndItsPolygon) {
 // Straight into the cusp: no direction is its normal.
 TEST(CurveOrbit, TheCuspIsUndecided) {
   ExactSystem system = system_of(curves[0]);
-  system.start.position = {ExactNumber("1"), ExactNumber("0")};
-  system.start.angle.reset();
-  system.start.direction = {ExactNumber("-1"), ExactNumber("0")};
+  start_from(system, "1", "0", "-1", "0");
   CertifiedTask task = task_of(5, 10);
   task.most_bits_a_doubt = 256;
   CertifiedOrbit orbit(system, task);

@@ -129,7 +129,7 @@ std::string fit_text(const DiffusionSummary& summary) {
 std::vector<std::string> doubts_of_growth(const DiffusionFit& fit,
                                           const std::vector<MomentPoint>& points) {
   std::vector<std::string> doubts;
-  // Few times leave no room for the offset c: what grows otherwise shows in the plain slope, too.
+  // With few times the offset c cannot be fitted: then the slope of ln MSD is taken.
   const bool enough = std::isfinite(fit.exponent.value);
   const Estimate& a = enough ? fit.exponent : fit.local_exponent;
   const double off = std::abs(a.value - 1);

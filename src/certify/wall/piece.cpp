@@ -4,6 +4,7 @@
 #include <cmath>
 #include <variant>
 
+#include "carom/base/elementary.hpp"
 #include "certify/wall/curve_of_formulas.hpp"
 #include "certify/wall/hole.hpp"
 #include "certify/wall/table_builder.hpp"
@@ -40,7 +41,8 @@ class ConicPiece final : public Piece {
   }
   double u_of(double t) const override {
     const double quarter = std::floor(t / quarter_turn);
-    return quarter + std::tan(0.5 * (t - quarter * quarter_turn));
+    const elementary::SinCos half = elementary::sincos(0.5 * (t - quarter * quarter_turn));
+    return quarter + half.sin / half.cos;
   }
 
  private:
