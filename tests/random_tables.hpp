@@ -4,20 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <random>
 #include <variant>
 #include <vector>
 
+#include "soak.hpp"
 #include "tables_by_hand.hpp"
 
 namespace carom::tests {
-
-/// How many cases: `few` by default, `many` when CAROM_SOAK is set (ctest -C Soak -L soak).
-inline long cases(long few, long many) {
-  static const bool soak = std::getenv("CAROM_SOAK") != nullptr;
-  return soak ? many : few;
-}
 
 /// Random numbers of the tests.
 class Dice {

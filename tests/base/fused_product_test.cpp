@@ -6,11 +6,11 @@
 
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <random>
 
 #include "carom/base/fused_by_sums.hpp"
+#include "soak.hpp"
 
 namespace carom {
 namespace {
@@ -134,7 +134,7 @@ TEST(FusedProduct, IsRoundedOnceBySoftware) { expect_exact(detail::fused_in_soft
 // 10^6 triples; with CAROM_SOAK 10^8.
 TEST(FusedProduct, OfSoftwareIsThatOfTheLibrary) {
   Dice dice;
-  const int all = std::getenv("CAROM_SOAK") ? 100'000'000 : 1'000'000;
+  const int all = tests::soak() ? 100'000'000 : 1'000'000;
   for (int i = 0; i < all; ++i) {
     const auto [a, b, c] = dice.operands(i % kinds);
     ASSERT_EQ(bits(detail::fused_by_sums(a, b, c)), bits(std::fma(a, b, c)))

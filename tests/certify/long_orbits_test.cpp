@@ -7,6 +7,7 @@
 
 #include "certify/number/enclosure_of.hpp"
 #include "certify/systems.hpp"
+#include "soak.hpp"
 
 namespace carom {
 namespace {
@@ -16,7 +17,7 @@ using tests::exactly;
 using tests::Shaped;
 
 void follow(const Shaped& table, const char* slope) {
-  if (std::getenv("CAROM_SOAK") == nullptr) GTEST_SKIP() << "CAROM_SOAK is not set";
+  if (!tests::soak()) GTEST_SKIP() << "CAROM_SOAK is not set";
   const ExactSystem system = tests::system_of(table, {exactly("1"), exactly(slope)});
   CertifiedTask task;
   task.collisions = 100'000;

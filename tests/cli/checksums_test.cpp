@@ -15,6 +15,7 @@
 #include "carom/base/error.hpp"
 #include "files/hdf5/checksums.hpp"
 #include "program.hpp"
+#include "soak.hpp"
 
 namespace carom {
 namespace {
@@ -389,7 +390,7 @@ TEST(Checksums, AnIndexOfLinksIsDamagedOrLists) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   int refused_for_links = 0;
   // Every eighth byte with CAROM_SOAK.
-  const std::size_t step = std::getenv("CAROM_SOAK") ? 8 : 24;
+  const std::size_t step = tests::soak() ? 8 : 24;
   for (std::size_t at = 0; at < std::min<std::size_t>(whole.size(), 8192); at += step) {
     std::string bad = whole;
     bad[at] ^= 16;

@@ -22,13 +22,13 @@
 #include "damaged.hpp"
 #include "files/hdf5/checksums.hpp"
 #include "program.hpp"
+#include "soak.hpp"
 #include "systems.hpp"
 
 namespace carom {
 namespace {
 
-const bool soak = std::getenv("CAROM_SOAK") != nullptr;
-const int by_readers = soak ? 4000 : 200, by_program = soak ? 500 : 12;
+const int by_readers = tests::soak() ? 4000 : 200, by_program = tests::soak() ? 500 : 12;
 
 using tests::Cases;
 

@@ -2,9 +2,8 @@
 // datasets.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "kill_and_resume.hpp"
+#include "soak.hpp"
 
 namespace carom {
 namespace {
@@ -13,7 +12,7 @@ const Ensemble lorentz{"diffusion", "lorentz-triangular --trajectories 8000 --t-
 const Ensemble soft{"diffusion", "soft-lorentz --trajectories 700 --t-max 10"};
 
 // Five kills; fifty with CAROM_SOAK.
-int kills(int few) { return std::getenv("CAROM_SOAK") ? 25 : few; }
+int kills(int few) { return tests::soak() ? 25 : few; }
 
 TEST(DiffusionResume, AKilledRunEndsAsTheUndisturbedOne) {
   kill_and_resume(lorentz, "", kills(3), 3);

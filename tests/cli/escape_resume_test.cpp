@@ -2,12 +2,12 @@
 // happened.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
 
 #include "files/hdf5/checksums.hpp"
 #include "files/hdf5/hdf5.hpp"
 #include "kill_and_resume.hpp"
+#include "soak.hpp"
 
 namespace carom {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 const Ensemble mushroom{"escape", "mushroom --trajectories 1.5e5 --t-max 4000"};
 
 // Five kills; fifty with CAROM_SOAK.
-int kills() { return std::getenv("CAROM_SOAK") ? 25 : 3; }
+int kills() { return tests::soak() ? 25 : 3; }
 
 TEST(EscapeResume, AKilledRunEndsAsTheUndisturbedOne) { kill_and_resume(mushroom, "", kills(), 1); }
 
@@ -24,7 +24,7 @@ TEST(EscapeResume, AKilledRunFromQuasiRandomStartsEndsAsTheUndisturbedOne) {
 }
 
 TEST(EscapeResume, AKilledRunKeepsEveryRecord) {
-  kill_and_resume(mushroom, " --per-trajectory --block 100", std::getenv("CAROM_SOAK") ? 25 : 2, 2);
+  kill_and_resume(mushroom, " --per-trajectory --block 100", tests::soak() ? 25 : 2, 2);
 }
 
 // A killed run's, with something in it.

@@ -10,6 +10,7 @@
 #include "processes.hpp"
 #include "program.hpp"
 #include "sanitizers.hpp"
+#include "soak.hpp"
 
 namespace carom {
 namespace {
@@ -134,7 +135,7 @@ TEST(Ranks, AKilledRankCostsTheLastBlocksAlone) {
       "$carom escape stadium --trajectories 3e6 --t-max 60 --quiet --json --threads 1";
   ASSERT_EQ(shell(run + " -o whole.h5").status, 0);
   const auto whole = datasets(shell, "whole.h5");
-  for (int kill = 0; kill < (std::getenv("CAROM_SOAK") ? 25 : 3); ++kill) {
+  for (int kill = 0; kill < (tests::soak() ? 25 : 3); ++kill) {
     const bool last = kill % 2 == 0;  // of the three: mpirun starts them in their order
     const std::string victim = last ? "tail -1" : "head -1",
                       share = "a.h5.part/rank-" + std::string(last ? "2" : "0"),

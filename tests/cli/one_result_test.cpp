@@ -9,6 +9,7 @@
 #include "archive_contents.hpp"
 #include "processes.hpp"
 #include "program.hpp"
+#include "soak.hpp"
 
 namespace carom {
 namespace {
@@ -21,20 +22,19 @@ struct Way {
 // All ways of this machine; without CAROM_SOAK every so many of them, and none of one process under
 // mpirun, each start of which takes a second. A number that 2 and 3 do not divide meets each set.
 std::vector<Way> ways_to_run(const Shell& shell, std::size_t every) {
-  const bool soak = std::getenv("CAROM_SOAK") != nullptr;
   std::vector<std::string> sets;
   for (const std::string isa : {"baseline", "avx2", "avx512"})
     if (shell("$carom escape circle --trajectories 1 --isa " + isa).status == 0)
       sets.push_back(isa);
   std::vector<Way> all, some;
   for (const int processes : {0, 1, 2, 4}) {
-    if ((processes > 0 && !has_mpi()) || (processes == 1 && !soak)) continue;
+    if ((processes > 0 && !has_mpi()) || (processes == 1 && !tests::soak())) continue;
     for (const int threads : {1, 2})
       for (const std::string block : {"7", "1024"})
         for (const std::string& isa : sets) all.push_back({processes, threads, block, isa});
   }
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (i % every == 0 || soak) some.push_back(all[i]);
+    if (i % every == 0 || tests::soak()) some.push_back(all[i]);
   return some;
 }
 

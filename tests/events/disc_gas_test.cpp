@@ -8,11 +8,10 @@
 #include "events/discs.hpp"
 
 #include "carom/events/world.hpp"
+#include "soak.hpp"
 
 namespace carom::tests {
 namespace {
-
-bool soak() { return std::getenv("CAROM_SOAK") != nullptr; }
 
 /// Counts contacts and adds up their virial.
 struct Virial : Observer {

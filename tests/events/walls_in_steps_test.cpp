@@ -8,7 +8,6 @@
 
 #include <boost/multiprecision/float128.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +16,7 @@
 #include "events/step/barriers_of.hpp"
 #include "events/step/crossing_in_step.hpp"
 #include "integrators/steppers.hpp"
+#include "soak.hpp"
 #include "tables_by_hand.hpp"
 
 namespace carom {
@@ -145,7 +145,6 @@ class WallsInSteps : public testing::TestWithParam<Setting> {};
 
 TEST_P(WallsInSteps, KeepTheOrder) {
   const Setting& s = GetParam();
-  const bool soak = std::getenv("CAROM_SOAK") != nullptr;
   const HarmonicWell well;
   const HenonHeiles henon_heiles;
   const ForceLaw<Real>& law = s.harmonic ? static_cast<const ForceLaw<Real>&>(well) : henon_heiles;
@@ -164,12 +163,15 @@ TEST_P(WallsInSteps, KeepTheOrder) {
         scheme.name == "mclachlan-2" || scheme.name == "ruth-3" || scheme.name == "he-4" ||
         scheme.name == "blanes-moan-srkn6b" || scheme.name == "mclachlan-atela-5" ||
         scheme.name == "blanes-moan-srkn11b" || scheme.form == Scheme::Form::spreiter_walter;
-    if (!soak && !picked) continue;
-    const int steps = scheme.order < 4 ? 64000 : scheme.order < 6 ? 12000 : soak ? 10000 : 6000;
+    if (!tests::soak() && !picked) continue;
+    const int steps = scheme.order < 4   ? 64000
+                      : scheme.order < 6 ? 12000
+                      : tests::soak()    ? 10000
+                                         : 6000;
     const double coarse = error_of(run(scheme, steps).end, exact.end);
     const double fine = error_of(run(scheme, 2 * steps).end, exact.end);
     const double order = std::log2(coarse / fine);
-    if (soak)
+    if (tests::soak())
       std::printf("%-36s %-24s order %d  measured %.3f  error %.2g\n", s.name,
                   std::string(scheme.name).c_str(), scheme.order, order, fine);
     EXPECT_NEAR(order, scheme.order, 0.15) << scheme.name << " errors " << coarse << " " << fine;

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <string>
 #include <vector>
 
 #include "../../validation/schemes/problems.hpp"
+#include "soak.hpp"
 #include "steppers.hpp"
 
 namespace carom {
@@ -51,8 +51,7 @@ Drift energy_drift(const Scheme& scheme, const problems::Problem<double>& proble
 class Energy : public testing::TestWithParam<std::string> {};
 
 TEST_P(Energy, OscillatesWithoutTrend) {
-  const bool soak = std::getenv("CAROM_SOAK") != nullptr;
-  const long steps = soak ? 10000000 : 100000;
+  const long steps = tests::soak() ? 10000000 : 100000;
   const Scheme& scheme = find_scheme(GetParam());
   const auto stages = stages_of<double>(scheme);
   const auto kicks = std::count_if(stages.begin(), stages.end(), [](const auto& s) {
@@ -60,14 +59,15 @@ TEST_P(Energy, OscillatesWithoutTrend) {
   });
   const double step = static_cast<double>(kicks) / 32.0;  // equal work for all
   // Without field the energy has slow waves as well, which only a long run sees to their end.
-  const std::vector<const char*> fields = soak ? std::vector{"0", "1.5"} : std::vector{"1.5"};
+  const std::vector<const char*> fields =
+      tests::soak() ? std::vector{"0", "1.5"} : std::vector{"1.5"};
   for (const char* omega : fields) {
     const problems::HenonHeiles<double> problem(omega);
     const Drift drift = energy_drift(scheme, problem, step, steps);
     EXPECT_LT(std::fabs(drift.change), 0.1 * drift.oscillation) << "omega = " << omega;
     EXPECT_GT(drift.oscillation, 1e-12);  // far above rounding, else nothing was shown
     EXPECT_LT(drift.oscillation, 0.05);
-    if (soak) {
+    if (tests::soak()) {
       std::cout << "| " << scheme.name << " | " << step << " | " << omega << " | "
                 << drift.oscillation << " | " << drift.change / drift.oscillation << " |\n";
     }

@@ -14,6 +14,7 @@
 #include "carom/base/random.hpp"
 #include "carom/events/world.hpp"
 #include "carom/starts/sampler.hpp"
+#include "soak.hpp"
 
 namespace carom {
 
@@ -108,7 +109,7 @@ TEST(Splitting, ThreeDiscAgreesWithIndependentTrajectories) {
 // Gaspard & Rice 1989; the digits are those of cycle expansions.
 TEST(Splitting, ThreeDiscSurvivalPerBounceIsThePublishedOne) {
   const SplittingResult result =
-      run_splitting(three_disc(), by_hits(31, std::getenv("CAROM_SOAK") ? 4000 : 1600, 16));
+      run_splitting(three_disc(), by_hits(31, tests::soak() ? 4000 : 1600, 16));
   const auto points = survival(result);
   EXPECT_LT(points.back().p.limit.value, 1e-20);
   const Extrapolated decay = decay_rate(result, 6, 30);
@@ -123,7 +124,7 @@ TEST(Splitting, ThreeDiscSurvivalPerBounceIsThePublishedOne) {
 // To a thousandth: the three runs of docs/physics/rare-events.md together. Minutes, so with
 // CAROM_SOAK alone.
 TEST(Splitting, ThreeDiscSurvivalIsKnownToAThousandth) {
-  if (!std::getenv("CAROM_SOAK")) GTEST_SKIP() << "long";
+  if (!tests::soak()) GTEST_SKIP() << "long";
   double sum = 0.0, weights = 0.0;
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     System system = three_disc();
@@ -144,7 +145,7 @@ TEST(Splitting, ThreeDiscSurvivalIsKnownToAThousandth) {
 // The orbit between two discs hits one of them where its wall begins. With kicks along the wall,
 // folded there, these short looks back gave .1814(1) with kicks of 2^-7.
 TEST(Splitting, WhereAWallBeginsDoesNotMatter) {
-  SplittingPlan plan = by_hits(25, std::getenv("CAROM_SOAK") ? 6000 : 3000, 16);
+  SplittingPlan plan = by_hits(25, tests::soak() ? 6000 : 3000, 16);
   plan.kick = 0x1p-5;
   plan.lookback = 1;
   const Extrapolated decay = decay_rate(run_splitting(three_disc(), plan), 4, 24);
