@@ -10,8 +10,8 @@
 #include "carom/analyses/section.hpp"
 #include "carom/base/error.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/commands/ensemble_job.hpp"
 #include "cli/commands/own_step.hpp"
+#include "cli/loading.hpp"
 #include "cli/reports/ensemble_context.hpp"
 #include "parts.hpp"
 #include "systems.hpp"
@@ -100,14 +100,9 @@ Result flown_well(LoadedSystem& loaded, cli::OwnStep& own_step, Fly fly) {
   }
 }
 
-void refuse_nothing(const System&, const EnsembleResult&) {}
-void refuse_nothing(const System& system, const LyapunovResult& result) {
-  if (const auto error = why_nothing(system, result)) throw *error;
-}
-
 template <class Result>
 Json printed(const System& system, const Result& result) {
-  refuse_nothing(system, result);
+  if (const auto error = why_nothing(system, result)) throw *error;
   return cli::result_json(system, result, {.status = "completed", .output = "", .shard = {}});
 }
 
@@ -138,14 +133,6 @@ Json part(const Options& options, TrajectoryRange range) {
 }
 
 template <class Result>
-void complete_sum(const System&, Result&) {}
-void complete_sum(const System& system, LyapunovResult& result) {
-  SplittingOptions how;
-  how.lanes.reset();
-  add_repeller(system, result, how);
-}
-
-template <class Result>
 Json sum(const Options& options, const Request& parts) {
   const LoadedSystem loaded = cli::load_ensemble(options);
   Result sum;
@@ -164,7 +151,9 @@ Json sum(const Options& options, const Request& parts) {
   }
   sum.complete = sum.done.size() == loaded.system.run.trajectories;
   if (!sum.complete) throw InputError("the parts are not the whole ensemble");
-  complete_sum(loaded.system, sum);
+  SplittingOptions how;
+  how.lanes.reset();
+  complete_sum(loaded.system, sum, how);
   return printed(loaded.system, sum);
 }
 

@@ -11,6 +11,7 @@
 #include "cli/command_table.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
+#include "cli/loading.hpp"
 #include "cli/reports/table_report.hpp"
 #include "files/text_file.hpp"
 #include "loaded.hpp"

@@ -22,6 +22,7 @@
 #include "carom/system/report_times.hpp"
 #include "carom_version.hpp"
 #include "cli/commands/ensemble_job.hpp"
+#include "cli/loading.hpp"
 #include "cli/reports/aligned.hpp"
 #include "files/checkpoint/work_folder.hpp"
 
@@ -29,53 +30,12 @@ namespace carom::cli {
 
 using files::Json;
 
-namespace {
+namespace {}  // namespace
 
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-// Nanoseconds of CLOCK_MONOTONIC at the first signal; 0: none came.
-std::atomic<std::int64_t> first_signal{0};
-static_assert(std::atomic<std::int64_t>::is_always_lock_free);
-
-// While a system is read no loop looks at the flag: if that takes a second more, the signal ends
-// the program. A sweep has what it has finished on the disk by then, and goes on with it.
-std::atomic<bool> reading{false};
-std::atomic<int> signal_while_reading{0};
-
-extern "C" void on_patience_ended(int) {
-  if (!reading) return;
-  std::signal(signal_while_reading, SIG_DFL);
-  std::raise(signal_while_reading);
-}
-
-// timeout and mpirun send a signal to the process and then to its group: the second one, at once,
-// does not ask for an end without delay.
-extern "C" void on_interrupt(int number) {
-  if (reading) {
-    signal_while_reading = number;
-    std::signal(SIGALRM, on_patience_ended);
-    ::alarm(1);
-  }
-  constexpr std::int64_t patience = 500'000'000;  // ns
-  timespec time{};
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  const std::int64_t now = std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
-  std::int64_t first = 0;
-  if (!first_signal.compare_exchange_strong(first, now) && now - first > patience) _exit(stopped);
-  interrupted = true;
-}
-
-// The system sends SIGXCPU every second from the soft limit of CPU time to the hard one, so a
-// repetition is not a second signal.
-extern "C" void on_limit(int) { interrupted = true; }
-
-// Writes in one piece, so that lines of several processes do not mix. A closed stderr is no error.
+// In one piece, so that lines of several processes do not mix. A closed stderr is no error.
 void write_message(const std::string& line) {
   std::fputs((base::printable(line, base::Lines::many) + "\n").c_str(), stderr);
 }
-
-}  // namespace
 
 std::uint64_t whole_number(const std::string& text, const char* option, std::uint64_t least) {
   const Place place = place_of(option);
@@ -127,65 +87,10 @@ InstructionSet instruction_set_of(const Options& options) {
   return widest_instruction_set();
 }
 
-void choose_engine(const std::string& engine, System& system) {
-  const Dynamics& dynamics = system.dynamics;
-  const bool forces = system.has_forces();
-  if (engine == "events" && forces)
-    throw InputError(place_of("--engine"), "'events' cannot move particles under forces",
-                     "auto or steps");
-  system.dynamics.everywhere = engine == "steps";
-  if (!forces && engine != "steps") return;
-  if (!(dynamics.integrator.step > 0.0) && !is_adaptive(dynamics.integrator.scheme))
-    throw InputError(place_of("--engine"), "'steps' needs the length of a step",
-                     "[integrator] step, or --set integrator.step=0.01");
-  double omega = 0.0;
-  for (const Particle& p : system.particles) omega = std::max(omega, std::fabs(p.omega));
-  const std::string warning = check_turn(dynamics.integrator, omega, !system.table->walls.empty(),
-                                         {system.name, 0, 0, "integrator"});
-  if (!warning.empty()) write_message("warning: " + warning);
-}
-
-std::string engine_of(const System& system) {
-  const Dynamics& dynamics = system.dynamics;
-  if (dynamics.everywhere) return "steps";
-  if (!system.has_forces()) return "events";
-  return dynamics.forces->everywhere() || dynamics.forces->interacts() ? "steps" : "auto";
-}
-
-std::string repeated_starts(const System& system) {
-  const std::uint64_t listed = listed_trajectories(system), all = system.run.trajectories;
-  if (listed == 0 || listed >= all || !system.injections.empty()) return {};
-  return fmt::format("{} repeat {}: they are not independent, and errors and intervals too small",
-                     counted(all, "trajectory"), counted(listed, "listed one"));
-}
-
 void follow_links(Options& options) {
   for (std::string* name : {&options.output, &options.resume}) *name = followed(*name);
   for (std::string& name : options.files) name = followed(name);
 }
-
-namespace {
-
-struct Reading {
-  Reading() { reading = true; }
-  Reading(const Reading&) = delete;
-  ~Reading() { reading = false; }
-};
-
-}  // namespace
-
-LoadedSystem load(const Options& options, const SystemOverrides& overrides) {
-  const Reading until_read;
-  // Equilibria are found without any step, and trial runs for one may take minutes.
-  SystemOverrides with = options.of_sweep ? SystemOverrides() : overrides;
-  with.choose_step = options.command != "relax" && options.command != "table";
-  if (options.of_sweep)
-    return read_system(options.of_sweep->system_toml, options.of_sweep->system_name, with);
-  if (options.system_text) return read_system(*options.system_text, options.system, with);
-  return load_system(options.system, with);
-}
-
-LoadedSystem load_typed(const Options& options) { return load(options, options.overrides); }
 
 ArchiveLock lock_output(const Options& options, const std::string& file) {
   if (!options.of_sweep) refuse_inside(file);
@@ -265,22 +170,6 @@ void print(const std::string& text) {
 }
 
 void warn(const std::string& text) { write_message("carom: " + text); }
-
-const std::atomic<bool>& catch_interrupts() {
-  struct sigaction action {};
-  action.sa_handler = on_interrupt;
-  sigemptyset(&action.sa_mask);
-  action.sa_flags = SA_RESTART;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-  struct sigaction before {};
-  const bool no_hangup =
-      sigaction(SIGHUP, nullptr, &before) == 0 && before.sa_handler == SIG_IGN;  // nohup
-  if (!no_hangup) sigaction(SIGHUP, &action, nullptr);
-  action.sa_handler = on_limit;
-  sigaction(SIGXCPU, &action, nullptr);
-  return interrupted;
-}
 
 std::string until(double last_time) {
   return last_time < no_last_time ? fmt::format("until t = {:.6g}", last_time)

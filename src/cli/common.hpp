@@ -32,18 +32,8 @@ int threads_of(const Options&);
 void check_engine(const Options&);
 /// What --isa asks for: the widest of this machine, or the one named.
 InstructionSet instruction_set_of(const Options&);
-/// Sets what --engine asks for: "auto", "events" (refused where forces act) or "steps".
-void choose_engine(const std::string& engine, System&);
-/// What moves the particles: "events" (exact flights), "steps" (integration) or "auto" (both).
-std::string engine_of(const System&);
-/// A doubt about an ensemble's errors: "" unless its trajectories repeat the starts that are
-/// listed.
-std::string repeated_starts(const System&);
 /// Replaces links by the names of the files that they lead to.
 void follow_links(Options&);
-/// The system that is asked for: of a sweep that of its value.
-LoadedSystem load(const Options&, const SystemOverrides&);
-LoadedSystem load_typed(const Options&);  ///< with what was typed
 /// lock_archive; where others are not kept away, a warning says so.
 ArchiveLock lock_output(const Options&, const std::string& file);
 /// The lock of the file that -o names, which must not exist but with --force; null without -o.
@@ -82,15 +72,12 @@ void print_report(const Options& options, const auto& json, const auto& text,
   else
     print(options.json ? json().text() + "\n" : text());
 }
-/// A line on standard error: "carom: text". Where it cannot be written it is lost, and nothing
-/// else.
+/// A line on standard error. Where it cannot be written it is lost, and nothing else.
+void write_message(const std::string& line);
+/// A line on standard error: "carom: text".
 void warn(const std::string& text);
 /// Where an error in an option is.
 inline Place place_of(const char* option) { return {"command line", 0, 0, option}; }
-
-/// From now on Ctrl-C, SIGTERM and SIGHUP (unless it was ignored) set a flag; a second one ends the
-/// program at once. So does SIGXCPU, however often it comes.
-const std::atomic<bool>& catch_interrupts();
 
 using base::counted;
 using base::grouped;

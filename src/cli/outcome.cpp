@@ -10,6 +10,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/commands/ensemble_job.hpp"
 #include "cli/common.hpp"
+#include "cli/loading.hpp"
 
 namespace carom::cli {
 

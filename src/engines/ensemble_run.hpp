@@ -346,6 +346,11 @@ class EnsembleListener : public Listener {
 
 /// Flies an ensemble whose trajectories are drawn block by block: on each thread an engine, and the
 /// listener that `listen(engine, thread)` makes. `starts`: the system that they are drawn from.
+///
+/// The engine asks `drawn` for one trajectory after the other. When a block is used up, the next is
+/// claimed, and the listener hears of it (claimed). It hears where a trajectory begins and ends, in
+/// lanes too (InLanes in engine.cpp), and after the last of a block it delivers the block's sums to
+/// its thread. At the end the threads' sums are added.
 template <class Result, class Listen>
 Result fly_blocks(const System& system, const System& starts,
                   const EnsembleOptions<Result>& options, Result nothing, EngineOptions how,

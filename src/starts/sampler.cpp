@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -12,7 +13,6 @@
 #include "carom/base/random.hpp"
 #include "carom/events/world.hpp"
 #include "carom/geometry/hull.hpp"
-#include "events/step/group.hpp"
 #include "starts/start_formulas.hpp"
 
 namespace carom {
@@ -20,6 +20,7 @@ namespace carom {
 namespace {
 
 using geometry::Vector;
+using starts::impossible;
 using starts::put_off_walls;
 using starts::unit;
 using Kind = InitialCondition::Kind;
@@ -32,13 +33,6 @@ constexpr std::int64_t most_tries = 1'000'000, most_tries_of_a_line = 30'000;
 std::int64_t tries_in(Vector low, Vector high) {
   const bool no_width = low.x == high.x, no_height = low.y == high.y;
   return no_width && no_height ? 1 : no_width || no_height ? most_tries_of_a_line : most_tries;
-}
-
-InputError impossible(const InitialCondition& initial, const std::string& problem,
-                      const std::string& expected = {}) {
-  Place place = initial.place;
-  if (place.key.empty()) place.key = "initial";
-  return InputError(place, problem, expected);
 }
 
 InputError none_inside(const InitialCondition& initial, const char* where, const char* expected) {
@@ -73,55 +67,6 @@ bool beside(const Table& table, Vector low, Vector high) {
 }
 
 }  // namespace
-
-std::uint64_t listed_trajectories(const System& system) {
-  const std::uint64_t particles = system.particles.size();
-  const auto shared = [&](std::size_t starts) {
-    return std::max<std::uint64_t>(1, (starts + particles - 1) / particles);
-  };
-  switch (system.initial.kind) {
-    case Kind::birkhoff:
-      return shared(system.initial.s.size());
-    case Kind::list:
-      return shared(system.initial.positions.size());
-    case Kind::point:
-      return 1;
-    default:
-      return 0;
-  }
-}
-
-void fold_into_cell(const Table& table, Vector& position, geometry::Cell& cell) {
-  if (!table.lattice) return;
-  const geometry::Lattice& lattice = *table.lattice;
-  // First the whole number of cells from the solution of position - centre = a first + b second,
-  // then edge by edge. Each subtraction is rounded; the folded position is the start, exactly. The
-  // home cell lies about its walls, be they many cells from the origin.
-  const Vector from_centre = position - events::centre_of_cell(lattice);
-  const double area = cross(lattice.first, lattice.second);
-  const double a = std::nearbyint(cross(from_centre, lattice.second) / area);
-  const double b = std::nearbyint(cross(lattice.first, from_centre) / area);
-  if (!(std::abs(a) < 0x1p52 && std::abs(b) < 0x1p52)) return;
-  const auto move = [&](const geometry::Cell& by) {
-    position = position - lattice.translation(by);
-    cell.first += by.first;
-    cell.second += by.second;
-  };
-  // A start in the home cell, its edges included, is not touched.
-  const auto edge_passed = [&] {
-    return std::find_if(
-        lattice.edges.begin(), lattice.edges.end(), [&](const geometry::CellEdge& edge) {
-          return cross(edge.segment.to - edge.segment.from, position - edge.segment.from) < 0.0;
-        });
-  };
-  if (edge_passed() == lattice.edges.end()) return;
-  move({static_cast<std::int64_t>(a), static_cast<std::int64_t>(b)});
-  for (int i = 0; i < 16; ++i) {
-    const auto edge = edge_passed();
-    if (edge == lattice.edges.end()) return;
-    move(edge->beyond);
-  }
-}
 
 Sampler::Sampler(const System& system, const std::atomic<bool>* interrupted)
     : Sampler(system, interrupted
@@ -210,6 +155,54 @@ void Sampler::add_source(int wall, double from, double to) {
 /// of a great many later ones would fail by chance.
 std::int64_t Sampler::patience(std::int64_t of_the_first, std::uint64_t trajectory) {
   return trajectory == 0 ? of_the_first : 1000 * of_the_first;
+}
+
+bool Sampler::draws_free_points() const {
+  const Dynamics& dynamics = system_.dynamics;
+  return (system_.initial.kind == Kind::uniform || system_.initial.kind == Kind::rectangle) &&
+         system_.particles.size() == 1 && system_.particles[0].speed != 0.0 &&
+         !system_.of_discs() && !(dynamics.forces && dynamics.forces->external());
+}
+
+void Sampler::draw_several(const World& world, std::uint64_t first, std::span<State> states) const {
+  if (!draws_free_points()) {
+    for (State& state : states) state = draw(world, first++, 0);
+    return;
+  }
+  const auto random = [&](std::uint64_t trajectory, std::uint64_t block) {
+    return RandomStream(system_.run.seed, Purpose::initial_state, trajectory, 0, block);
+  };
+  const bool of_table = system_.initial.kind == Kind::uniform;
+  const Vector low = of_table ? low_ : system_.initial.low,
+               high = of_table ? high_ : system_.initial.high;
+  const double speed = system_.particles[0].speed;
+  constexpr std::size_t most = 64;
+  std::array<RandomStream::Block, most> words;
+  std::array<Vector, most> positions, directions;
+  while (!states.empty()) {
+    const std::size_t count = std::min(most, states.size());
+    // One thing for all starts, then the next: rounds of a loop do not need each other, so that the
+    // processor works on several at once.
+    for (std::size_t i = 0; i < count; ++i)
+      RandomStream::block(system_.run.seed, Purpose::initial_state, first + i, 0, 0, words[i]);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto& [right, up, x, y] = words[i];
+      positions[i] =
+          starts::point_of_box(low, high, RandomStream::uniform(right), RandomStream::uniform(up));
+      directions[i] = {RandomStream::symmetric(x), RandomStream::symmetric(y)};
+    }
+    for (std::size_t i = 0; i < count; ++i)
+      if (!RandomStream::in_disc(directions[i].x, directions[i].y))
+        random(first + i, 1).point_in_disc(directions[i].x, directions[i].y);
+    for (std::size_t i = 0; i < count; ++i) directions[i] = speed * starts::unit(directions[i]);
+    for (std::size_t i = 0; i < count; ++i) {
+      starts::put_off_walls(states[i], *system_.table, positions[i], directions[i]);
+      // With another point the direction is another, too.
+      if (!admits(world, states[i])) states[i] = draw(world, first + i, 0);
+    }
+    first += count;
+    states = states.subspan(count);
+  }
 }
 
 State Sampler::draw(const World& world, std::uint64_t trajectory, int particle) const {
@@ -377,44 +370,6 @@ State Sampler::on_wall(int wall, double u, double tangential, double normal, dou
   const Vector inward = geometry::normal_at(frame, u);
   state.velocity = speed * unit(tangential * right(inward) + normal * inward);
   return state;
-}
-
-int add_start(World& world, const System& system, const State& state, std::uint64_t trajectory,
-              int particle) {
-  world.scatter_by(system.run.seed, trajectory);
-  try {
-    return world.add(system.particles.at(static_cast<std::size_t>(particle)), state);
-  } catch (const std::invalid_argument& error) {
-    throw impossible(system.initial,
-                     fmt::format("trajectory {} cannot start at ({}, {}): {}", trajectory,
-                                 state.position.x, state.position.y, error.what()));
-  }
-}
-
-int add_start(World& world, const Sampler& sampler, std::uint64_t trajectory, int particle) {
-  return add_start(world, sampler.system(), sampler.draw(world, trajectory, particle), trajectory,
-                   particle);
-}
-
-void add_starts(World& world, const Sampler& sampler, std::uint64_t trajectory) {
-  const std::vector<State> states = sampler.draw_all(world, trajectory);
-  for (std::size_t p = 0; p < states.size(); ++p) {
-    if (sampler.stopped()) throw SamplingStopped();
-    add_start(world, sampler.system(), states[p], trajectory, static_cast<int>(p));
-  }
-}
-
-void check_start(const System& system, const std::atomic<bool>* interrupted) {
-  World world(*system.table, system.dynamics);
-  try {
-    add_starts(world, Sampler(system, interrupted), 0);
-  } catch (const SamplingStopped&) {  // so does what comes next
-  }
-}
-
-State draw_initial_state(const System& system, const World& world, std::uint64_t trajectory,
-                         int particle) {
-  return Sampler(system).draw(world, trajectory, particle);
 }
 
 }  // namespace carom

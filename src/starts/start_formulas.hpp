@@ -10,6 +10,14 @@
 
 namespace carom::starts {
 
+/// Of initial conditions that cannot be.
+inline InputError impossible(const InitialCondition& initial, const std::string& problem,
+                             const std::string& expected = {}) {
+  Place place = initial.place;
+  if (place.key.empty()) place.key = "initial";
+  return InputError(place, problem, expected);
+}
+
 inline geometry::Vector unit(geometry::Vector v) {
   v = (1.0 / std::max(std::abs(v.x), std::abs(v.y))) * v;  // no overflow in the squares
   v = (1.0 / std::sqrt(dot(v, v))) * v;

@@ -1,6 +1,7 @@
 // The kinds of ensembles that can be continued, parted and merged: the only list of them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -23,7 +24,7 @@ inline const char* kind_of(const DiffusionResult&) { return "diffusion"; }
 inline const char* kind_of(const LyapunovResult&) { return "lyapunov"; }
 inline const char* kind_of(const ReturnsResult&) { return "returns"; }
 
-/// Flies an ensemble of its kind.
+/// Flies an ensemble of its kind (src/analyses/escape/escape.cpp and its likes).
 inline EscapeResult flown(const System& system, const EnsembleOptions<EscapeResult>& how) {
   return run_escape(system, how);
 }
@@ -36,6 +37,15 @@ inline LyapunovResult flown(const System& system, const EnsembleOptions<Lyapunov
 inline ReturnsResult flown(const System& system, const EnsembleOptions<ReturnsResult>& how) {
   return run_returns(system, how);
 }
+
+/// What a whole ensemble says beyond the sum of its parts: of exponents alone, if nothing stays.
+inline void complete_sum(const System&, const EnsembleResult&, const SplittingOptions& = {}) {}
+inline void complete_sum(const System& system, LyapunovResult& result,
+                         const SplittingOptions& how = {}) {
+  add_repeller(system, result, how);
+}
+/// Why nothing could be measured: of exponents alone (lyapunov.hpp).
+inline std::optional<InputError> why_nothing(const System&, const EnsembleResult&) { return {}; }
 
 /// Calls `visit` with std::type_identity of the result of that kind. False: there is no such kind.
 bool for_kind(std::string_view kind, auto visit) {

@@ -16,6 +16,8 @@
 #include "carom/integrators/scheme.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
+#include "cli/loading.hpp"
+#include "cli/signals.hpp"
 #include "files/progress.hpp"
 
 namespace carom::cli {

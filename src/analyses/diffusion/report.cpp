@@ -8,6 +8,7 @@
 #include "analyses/diffusion/describe.hpp"
 #include "carom/engines/engine.hpp"
 #include "cli/common.hpp"
+#include "cli/loading.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/ensemble_context.hpp"
 #include "files/describe/json_out.hpp"

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "analyses/escape/decay_law.hpp"
+#include "carom/analyses/escape.hpp"
 #include "carom/base/elementary.hpp"
 #include "carom/results/interval.hpp"
 
@@ -297,6 +298,10 @@ DecayFit fit_decay(const SurvivalCounts& counts, double until, std::optional<Dec
   if (counts.capped > 0)
     return no_fit("trajectories ended by the cap on hits would have stayed for an unknown time");
   return fit_decay(counts.gone_at, counts.followed(), counts.survived, until, window);
+}
+
+DecayFit decay_of(const System& system, const EscapeResult& result) {
+  return fit_decay(result.counts, system.run.t_max, system.run.window);
 }
 
 }  // namespace carom

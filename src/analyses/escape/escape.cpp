@@ -114,8 +114,4 @@ EscapeResult run_escape(const System& system, const EscapeOptions& options) {
       });
 }
 
-DecayFit decay_of(const System& system, const EscapeResult& result) {
-  return fit_decay(result.counts, system.run.t_max, system.run.window);
-}
-
 }  // namespace carom

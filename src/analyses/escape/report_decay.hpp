@@ -1,4 +1,4 @@
-// The decay of a survival probability for machines and for people.
+// The decay of a survival probability for machines and for people (report.cpp).
 #pragma once
 
 #include <string>

@@ -12,6 +12,7 @@
 #include "analyses/lyapunov/report_parts.hpp"
 #include "carom/engines/engine.hpp"
 #include "cli/common.hpp"
+#include "cli/loading.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
 #include "files/describe/json_out.hpp"

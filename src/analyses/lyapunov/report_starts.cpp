@@ -8,6 +8,7 @@
 #include "carom/starts/sampler.hpp"
 #include "carom/starts/start_measure.hpp"
 #include "cli/common.hpp"
+#include "cli/loading.hpp"
 #include "cli/reports/aligned.hpp"
 
 namespace carom::cli {

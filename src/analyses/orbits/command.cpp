@@ -8,6 +8,8 @@
 #include "carom/base/error.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
+#include "cli/loading.hpp"
+#include "cli/signals.hpp"
 #include "files/progress.hpp"
 
 namespace carom::cli {

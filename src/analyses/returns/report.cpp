@@ -10,6 +10,7 @@
 #include "carom/starts/sampler.hpp"
 #include "carom/starts/start_measure.hpp"
 #include "cli/common.hpp"
+#include "cli/loading.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/ensemble_context.hpp"
 #include "files/describe/json_out.hpp"

@@ -13,6 +13,8 @@
 #include "carom/base/stopwatch.hpp"
 #include "carom/events/world.hpp"
 #include "carom/starts/sampler.hpp"
+#include "cli/loading.hpp"
+#include "cli/signals.hpp"
 #include "files/progress.hpp"
 
 namespace carom::cli {

@@ -11,7 +11,9 @@
 #include "cli/commands/commands.hpp"
 #include "cli/commands/own_step.hpp"
 #include "cli/common.hpp"
+#include "cli/loading.hpp"
 #include "cli/reports/doubts.hpp"
+#include "cli/signals.hpp"
 #include "files/progress.hpp"
 
 namespace carom::cli {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cli/common.hpp"
+#include "cli/loading.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
 #include "files/describe/json_out.hpp"

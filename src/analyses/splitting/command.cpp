@@ -13,7 +13,9 @@
 #include "cli/commands/commands.hpp"
 #include "cli/commands/ensemble_job.hpp"
 #include "cli/common.hpp"
+#include "cli/loading.hpp"
 #include "cli/reports/aligned.hpp"
+#include "cli/signals.hpp"
 #include "files/progress.hpp"
 
 namespace carom::cli {

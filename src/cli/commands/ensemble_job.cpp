@@ -8,24 +8,18 @@
 #include "carom/base/exact_number.hpp"
 #include "carom/starts/sampler.hpp"
 #include "cli/common.hpp"
+#include "cli/loading.hpp"
 #include "files/checkpoint/rank_parts.hpp"
 #include "files/checkpoint/sweep_archive.hpp"
 #include "files/checkpoint/work_folder.hpp"
 
 namespace carom::cli {
 
-namespace {
-
 Shard shard_of(const Options& options) {
   return options.shard.empty() ? Shard{} : carom::shard_of(options.shard, place_of("--shard"));
 }
 
-SystemOverrides overrides_of(const Options& options) {
-  SystemOverrides overrides = options.overrides;
-  overrides.window = options.window;
-  if (!options.on.empty()) overrides.set.emplace_back("section.on", options.on);
-  return overrides;
-}
+namespace {
 
 // Keys that may differ between a system and what is stored of it. A step that the program chose is
 // one: it may have halved it since.
@@ -44,10 +38,10 @@ LoadedSystem loaded_of(const StoredEnsemble& stored, const Options& options) {
                      "this is another ensemble than the stored one: " + what,
                      "the same system and options, or none");
   };
-  LoadedSystem loaded =
-      options.system.empty()
-          ? read_system(stored.system_toml, stored.file + ": /system", overrides_of(options))
-          : load_system(options.system, overrides_of(options));
+  LoadedSystem loaded = options.system.empty()
+                            ? read_system(stored.system_toml, stored.file + ": /system",
+                                          overrides_of_ensemble(options))
+                            : load_system(options.system, overrides_of_ensemble(options));
   const std::string differs =
       difference(stored.system_toml, loaded.resolved_toml, open_keys(stored, loaded));
   if (!differs.empty() && !options.system.empty() && options.system != stored.system_name)
@@ -77,6 +71,8 @@ LoadedSystem loaded_of(const StoredEnsemble& stored, const Options& options) {
   return loaded;
 }
 
+}  // namespace
+
 template <class Result>
 EnsembleJob<Result> job_to_go_on(const Options& options, Sharing sharing) {
   EnsembleJob<Result> job;
@@ -98,37 +94,7 @@ EnsembleJob<Result> job_to_go_on(const Options& options, Sharing sharing) {
   return job;
 }
 
-}  // namespace
-
-LoadedSystem load_ensemble(const Options& options) {
-  SystemOverrides overrides = overrides_of(options);
-  LoadedSystem loaded = load(options, overrides);
-  // Listed starts that trajectories repeat give the same orbits again, as if their spread were 0:
-  // for a mean as many trajectories as starts are listed.
-  if (options.command != "escape" && !options.of_sweep && !repeated_starts(loaded.system).empty()) {
-    std::erase_if(overrides.set, [](const auto& one) { return one.first == "run.trajectories"; });
-    overrides.trajectories = std::to_string(listed_trajectories(loaded.system));
-    loaded = load(options, overrides);
-  }
-  choose_engine(options.engine, loaded.system);
-  return loaded;
-}
-
-template <class Result>
-EnsembleJob<Result> job_of(const Options& options, Sharing sharing) {
-  if (!options.resume.empty()) return job_to_go_on<Result>(options, sharing);
-  EnsembleJob<Result> job;
-  job.output = options.output;
-  job.shard = shard_of(options);
-  // First, for a step may be chosen by minutes of trial runs.
-  if (!job.output.empty() && sharing != Sharing::other) {
-    job.lock = lock_output(options, job.output);
-    refuse_existing(job.output, options.force);
-  }
-  job.loaded = load_ensemble(options);
-  return job;
-}
-#define CAROM_MAKE(Result) template EnsembleJob<Result> job_of(const Options&, Sharing);
+#define CAROM_MAKE(Result) template EnsembleJob<Result> job_to_go_on(const Options&, Sharing);
 CAROM_FOR_ENSEMBLES(CAROM_MAKE)
 #undef CAROM_MAKE
 

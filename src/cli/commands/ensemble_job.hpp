@@ -22,12 +22,12 @@ struct EnsembleJob {
 };
 /// The first of the processes that share a run writes the archive; the others only read.
 enum class Sharing { alone, first, other };
-/// Throws InputError if the stored ensemble is another one, and says what differs.
+/// What --resume names. Throws InputError if the stored ensemble is another one, and says what
+/// differs.
 template <class Result>
-EnsembleJob<Result> job_of(const Options&, Sharing = Sharing::alone);
-
-/// The system of a new ensemble.
-LoadedSystem load_ensemble(const Options&);
+EnsembleJob<Result> job_to_go_on(const Options&, Sharing);
+/// The part that --shard names: all without it.
+Shard shard_of(const Options&);
 
 /// Does the command only add up trajectories? Then it can be divided, continued and shared.
 bool is_plain_ensemble(const Options&);

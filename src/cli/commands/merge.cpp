@@ -37,7 +37,7 @@ int merge_parts(const Options& options, const std::string& output,
   const LoadedSystem loaded = system_of(sum);
   Provenance origin = provenance_of(options, loaded.system, sum.result.threads);
   if (sum.result.lanes) origin.isa = name_of(*sum.result.lanes);
-  complete_sum(options, loaded.system, sum.result);
+  complete_sum(loaded.system, sum.result, how_to_complete(options));
   refuse_nothing(options, loaded.system, sum.result);
   write_sum(output, loaded, origin, sum, lock);
   lock.reset();

@@ -14,11 +14,28 @@
 #include "cli/commands/ensemble_job.hpp"
 #include "cli/commands/own_step.hpp"
 #include "cli/common.hpp"
+#include "cli/loading.hpp"
 #include "cli/ranks.hpp"
 #include "cli/reports/ensemble_context.hpp"
+#include "cli/signals.hpp"
 #include "files/progress.hpp"
 
 namespace carom::cli {
+
+template <class Result>
+EnsembleJob<Result> job_of(const Options& options, Sharing sharing = Sharing::alone) {
+  if (!options.resume.empty()) return job_to_go_on<Result>(options, sharing);
+  EnsembleJob<Result> job;
+  job.output = options.output;
+  job.shard = shard_of(options);
+  // First, for a step may be chosen by minutes of trial runs.
+  if (!job.output.empty() && sharing != Sharing::other) {
+    job.lock = lock_output(options, job.output);
+    refuse_existing(job.output, options.force);
+  }
+  job.loaded = load_ensemble(options);
+  return job;
+}
 
 template <class Result>
 EnsembleOptions<Result> how_to_run(const Options& options) {
@@ -131,20 +148,16 @@ Result fly(const Options& options, const System& system, EnsembleOptions<Result>
   return flown(system, how);
 }
 
-// What a whole ensemble says beyond the sum of its parts: of exponents alone.
-void complete_sum(const Options&, const System&, auto&) {}
-inline void complete_sum(const Options& options, const System& system, LyapunovResult& result) {
+inline SplittingOptions how_to_complete(const Options& options) {
   SplittingOptions how;
   how.threads = threads_of(options);
   how.lanes = instruction_set_of(options);
   how.interrupted = &catch_interrupts();
-  add_repeller(system, result, how);
+  return how;
 }
 
 // Refuses a system of which nothing could be measured. A value of a sweep has none then.
-void refuse_nothing(const Options&, const System&, const auto&) {}
-inline void refuse_nothing(const Options& options, const System& system,
-                           const LyapunovResult& result) {
+void refuse_nothing(const Options& options, const System& system, const auto& result) {
   if (options.of_sweep) return;
   if (const auto error = why_nothing(system, result)) throw *error;
 }

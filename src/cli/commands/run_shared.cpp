@@ -9,6 +9,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/run_ensemble.hpp"
+#include "cli/signals.hpp"
 #include "cli/temporary_folder.hpp"
 #include "files/checkpoint/rank_parts.hpp"
 #include "files/checkpoint/work_folder.hpp"
@@ -68,7 +69,7 @@ std::optional<int> add_up(const Options& options, EnsembleJob<Result>& job, cons
                        "-o FILE on a disk that all machines see");
   SumOfParts<Result> sum = files::sum_of_ranks<Result>(job.output, files, job.shard);
   if (sum.result.complete && own_step.halve(job.loaded, sum.result.energy_error)) return {};
-  complete_sum(options, job.loaded.system, sum.result);
+  complete_sum(job.loaded.system, sum.result, how_to_complete(options));
   try {
     refuse_nothing(options, job.loaded.system, sum.result);
   } catch (...) {

@@ -11,8 +11,10 @@
 #include "cli/commands/ensemble_job.hpp"
 #include "cli/commands/run_ensemble.hpp"
 #include "cli/common.hpp"
+#include "cli/loading.hpp"
 #include "cli/outcome.hpp"
 #include "cli/ranks.hpp"
+#include "cli/signals.hpp"
 #include "files/checkpoint/rank_parts.hpp"
 #include "files/checkpoint/work_folder.hpp"
 

@@ -12,6 +12,7 @@
 #include "carom/files/ensembles.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
+#include "cli/loading.hpp"
 
 namespace carom::cli {
 

@@ -10,6 +10,7 @@
 #include "carom/integrators/scheme.hpp"
 #include "carom/results/ensemble_result.hpp"
 #include "cli/common.hpp"
+#include "cli/loading.hpp"
 #include "cli/reports/aligned.hpp"
 #include "files/progress.hpp"
 

@@ -8,6 +8,7 @@
 #include "carom/results/interval.hpp"
 #include "carom/starts/start_measure.hpp"
 #include "cli/common.hpp"
+#include "cli/loading.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "cli/common.hpp"
+#include "cli/loading.hpp"
 
 namespace carom::cli {
 

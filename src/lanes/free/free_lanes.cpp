@@ -81,9 +81,9 @@ class FreeLanes::Implementation {
     for (std::uint64_t sweep = 1; main.busy > 0; ++sweep) {
       if (stopped || (sweep % 64 == 0 && asked_to_stop())) return;
       if (sweep % most_sweeps == 0) main.add_cells();
-      kernels.on_walls(pieces, main.pack);
+      kernels.on_walls(pieces, main.pack);  // a hit of each lane: lanes/kernel/kernel.hpp
       if (tangents.any()) tangents.sweep(main);
-      main.cap();
+      main.cap();  // calls where a lane has all its hits
       effort.steps += static_cast<std::uint64_t>(rounded_up(main.pack.used));
       effort.idle += static_cast<std::uint64_t>(rounded_up(main.pack.used) - main.busy);
       const std::vector<int> enough = report_hits(main);

@@ -1,4 +1,11 @@
-// A kernel: one hit of every lane, stage by stage.
+// A kernel: one hit of every lane, stage by stage. What a stage finds it leaves in Stages.
+//
+//   choose   the piece of the walls that is hit next (straight.hpp, larmor.hpp; on lattices
+//            next_disc.hpp, parallelograms.hpp, cells.hpp)
+//   meet     where the flight meets it, and whether that is certain (met.hpp, ellipse.hpp)
+//   divide   how long it takes: the divisions of all lanes together; along circles time
+//   land     the next state, reflected; or a call to FreeLanes, where a trajectory ends, is looked
+//            at or is undecided (landing.hpp)
 //
 // The files of this folder are compiled once for each instruction set (carom_kernels in
 // CMakeLists.txt). Their headers open an unnamed namespace and use no container and no algorithm of
@@ -7,6 +14,9 @@
 #pragma once
 
 #include "lanes/kernel/landing.hpp"
+#include "lanes/kernel/next_disc.hpp"
+#include "lanes/kernel/stages.hpp"
+#include "lanes/kernel/straight.hpp"
 
 namespace carom::lanes {
 namespace {
