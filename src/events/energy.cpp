@@ -11,20 +11,9 @@ namespace carom {
 
 using geometry::Vector;
 
-double larger(double a, double b) {
-  if (std::isnan(a) || std::isnan(b)) return std::numeric_limits<double>::infinity();
-  return std::max(a, b);
-}
-
 double relative_to(double kinetic, double change) {
   if (change == 0.0) return 0.0;
   return std::isnan(change) ? std::numeric_limits<double>::infinity() : std::fabs(change) / kinetic;
-}
-
-EnergyError& EnergyError::operator+=(const EnergyError& o) {
-  end = larger(std::fabs(end), std::fabs(o.end));
-  largest = larger(largest, o.largest);
-  return *this;
 }
 
 EnergyError EnergyBalance::error_at_end(double change_at_end, double kinetic_at_end) const {

@@ -1,6 +1,8 @@
 // Energy, momentum and angular momentum of the particles of one instant.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 
@@ -20,12 +22,22 @@ struct Energy {
   double total() const { return kinetic + external + pair; }
 };
 
+/// The larger one of two numbers, none of them negative; one that is no number counts as infinite.
+inline double larger(double a, double b) {
+  if (std::isnan(a) || std::isnan(b)) return std::numeric_limits<double>::infinity();
+  return std::max(a, b);
+}
+
 /// How far energy is from what it was at the start, relative to the largest kinetic energy seen.
 struct EnergyError {
   double end = 0.0;      ///< at the end
   double largest = 0.0;  ///< the largest seen, without its sign
   /// Adds other trajectories: keeps the largest of each error, without a sign.
-  EnergyError& operator+=(const EnergyError&);
+  EnergyError& operator+=(const EnergyError& other) {
+    end = larger(std::fabs(end), std::fabs(other.end));
+    largest = larger(largest, other.largest);
+    return *this;
+  }
 };
 
 template <>
@@ -53,8 +65,6 @@ struct EnergyBalance {
   EnergyError error_at_end(double change_at_end, double kinetic_at_end) const;
 };
 
-/// The larger one of two numbers, none of them negative; one that is no number counts as infinite.
-double larger(double, double);
 /// |change| / kinetic, or 0 where nothing has changed.
 double relative_to(double kinetic, double change);
 
