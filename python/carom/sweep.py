@@ -75,7 +75,8 @@ class Sweep(Result, archive="sweep"):
     values (as they are written). sweep: records with values and all keys of the result. Array:
 
     table  (number of values,): the keys, then the command's values and errors: rate,
-           rate_stderr, D, D_stderr … in the units of the result; NaN: none
+           rate_stderr, D, D_stderr … in the units of the result; NaN: none. Where rows cannot be
+           trusted or lack something, doubts and note say why; "": none
     """
 
     def __init__(self, outcome, system, results=None, table=None):

@@ -176,6 +176,12 @@ def test_a_sweep_takes_the_place_of_what_the_system_holds():
     assert len(one) == 1 and one[0].digest == carom.escape(held, B=0.5).digest
 
 
+def test_the_table_of_a_sweep_says_which_rows_are_doubted():
+    swept = carom.diffusion("lorentz-triangular", trajectories=300, t_max=50, sweep={"B": [0, 3]})
+    assert list(swept.table["note"]) == ["", swept[1].json["note"]]
+    assert "D does not exist" in swept.table["note"][1]
+
+
 def test_an_archive_of_a_sweep_keeps_its_options(program, tmp_path):
     """The program goes on with it: it needs the options that are no keys of a system."""
     h5py = pytest.importorskip("h5py")

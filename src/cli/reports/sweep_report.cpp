@@ -292,6 +292,12 @@ std::vector<SweepColumn> sweep_table(const files::SweepPlan& plan,
         if (!std::isnan(found.error))
           column(std::string(quantity.name) + "_stderr").numbers[i] = found.error;
       }
+  // Why a row cannot be trusted, or what its numbers lack.
+  for (const char* key : {"doubts", "note"})
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (const Json* found = rows[i].report.find(key))
+        if (const std::string text = found->string().value_or(""); !text.empty())
+          column(key).texts[i] = text;
   for (SweepColumn& one : columns)
     if (std::all_of(one.texts.begin(), one.texts.end(),
                     [](const std::string& text) { return text.empty(); }))

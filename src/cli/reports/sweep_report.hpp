@@ -44,8 +44,8 @@ struct SweepColumn {
   std::vector<double> numbers;
   std::vector<std::string> texts;
 };
-/// The keys, then what the command's reports have of value and error ("rate", "rate_stderr"). A row
-/// for each of `rows`.
+/// The keys, then what the command's reports have of value and error ("rate", "rate_stderr"), then
+/// their `doubts` and `note`. A row for each of `rows`.
 std::vector<SweepColumn> sweep_table(const files::SweepPlan&, const std::vector<SweepRow>& rows);
 /// The numbers of the same for archives: a row for each value of the plan, NaN where it was not
 /// computed.
