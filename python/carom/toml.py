@@ -24,7 +24,9 @@ def value(thing, key="", levels=0):
     if isinstance(thing, str):
         return quoted(text_of(thing, key))
     if isinstance(thing, numbers.Integral):
-        return str(int(thing))
+        # TOML's integers have 64 bits. A text is an exact number, too.
+        whole = str(int(thing))
+        return whole if abs(int(thing)) < 2**63 else json.dumps(whole)
     if isinstance(thing, fractions.Fraction):
         return json.dumps(f"{thing.numerator}/{thing.denominator}")
     if isinstance(thing, decimal.Decimal):

@@ -90,6 +90,7 @@ def test_numbers_are_those_that_are_written():
     third = carom.rectangle(width=fractions.Fraction(1, 3), height=decimal.Decimal("0.1"))
     assert '"1/3"' in third.to_toml()
     assert third.area == pytest.approx(1 / 30, rel=1e-15)
+    assert carom.table(carom.rectangle(10**20, 1)).area == 1e20  # TOML has no such integer
 
 
 def test_a_changed_system_is_another_one():
