@@ -1,4 +1,4 @@
-// Real roots of polynomials with exact coefficients, beyond quadratics. Behind it stands CGAL; this
+// Real roots of polynomials with exact coefficients, beyond quadratics. CGAL finds them; this
 // header is free of it.
 #pragma once
 

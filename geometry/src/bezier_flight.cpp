@@ -41,7 +41,7 @@ class Line {
  public:
   Line(const BezierForm& curve, Vector start, Vector v, const FlightScale& scale, double on);
 
-  bool stands() const { return on_ >= 0.0; }
+  bool on_curve() const { return on_ >= 0.0; }
   double on() const { return on_; }
   BernsteinPolynomial<NumberWithError, most> bernstein() const;
   /// Not standing on the curve.
@@ -101,7 +101,7 @@ Line<degree>::Line(const BezierForm& curve, Vector start, Vector v, const Flight
     across_[k] = cross(v, curve.power[k]);
     along_[k] = dot(v, curve.power[k]);
   }
-  if (!stands()) {
+  if (!on_curve()) {
     const NumberWithError first = coefficient(0);
     across_[0] = first.value;
     along_[0] = dot(v, curve.control[0] - start);
@@ -128,7 +128,7 @@ Line<degree>::Line(const BezierForm& curve, Vector start, Vector v, const Flight
 template <std::size_t degree>
 BernsteinPolynomial<NumberWithError, most> Line<degree>::bernstein() const {
   constexpr double u = unit_roundoff, n = degree;
-  if (!stands()) {
+  if (!on_curve()) {
     BernsteinPolynomial<NumberWithError, most> g;
     g.degree = degree;
     for (std::size_t i = 0; i <= degree; ++i) g.b[i] = coefficient(i);
@@ -150,8 +150,8 @@ bool Line<degree>::surely_missed() const {
   double least = HUGE_VAL, largest = -HUGE_VAL, ahead = -HUGE_VAL, farthest = 0.0;
   // Standing on the curve g / (u - on) = v x (a mean of x'), and x' lies in the hull of the
   // differences of control points; there it is negative.
-  for (std::size_t i = stands() ? 1 : 0; i <= degree; ++i) {
-    const Vector d = curve_.control[i] - (stands() ? curve_.control[i - 1] : start_);
+  for (std::size_t i = on_curve() ? 1 : 0; i <= degree; ++i) {
+    const Vector d = curve_.control[i] - (on_curve() ? curve_.control[i - 1] : start_);
     const double g = cross(v_, d);
     least = std::min(least, g);
     largest = std::max(largest, g);
@@ -159,8 +159,8 @@ bool Line<degree>::surely_missed() const {
     farthest = std::max(farthest, norm_1(d));
   }
   const double error = scale_.inflation * 1.01 * norm_1(v_) *
-                       ((stands() ? 0.0 : scale_.delta) + 4.1 * unit_roundoff * farthest);
-  return largest < -error || (!stands() && (least > error || ahead < -error));
+                       ((on_curve() ? 0.0 : scale_.delta) + 4.1 * unit_roundoff * farthest);
+  return largest < -error || (!on_curve() && (least > error || ahead < -error));
 }
 
 template <std::size_t degree>
@@ -169,7 +169,7 @@ CurveExit Line<degree>::exit_at(double u, double spread) const {
 #pragma GCC unroll 8
   for (std::size_t k = 1; k <= degree; ++k) along = along_[degree - k] + u * along;
   double error = error_ + along_slope_ * spread;
-  if (stands()) {
+  if (on_curve()) {
     const double way = u - on_;
     error = std::fabs(way) * error + spread * (std::fabs(along) + error) +
             2.1 * unit_roundoff * std::fabs(along * way);
@@ -214,7 +214,7 @@ class LarmorCircle {
   LarmorCircle(const BezierForm& curve, Vector start, Vector v, double omega,
                const FlightScale& scale, double on);
 
-  bool stands() const { return on_ >= 0.0; }
+  bool on_curve() const { return on_ >= 0.0; }
   double on() const { return on_; }
   BernsteinPolynomial<NumberWithError, 2 * most> bernstein() const;
   /// Not standing on the curve. The direction of the circle about its centre changes along it.
@@ -234,7 +234,7 @@ class LarmorCircle {
   bool surely_missed() const { return false; }
   double error() const { return error_; }
   double value(double u) const {
-    return side_of_flight(v_, offset(u), stands() ? omega_ * (u - on_) : omega_);
+    return side_of_flight(v_, offset(u), on_curve() ? omega_ * (u - on_) : omega_);
   }
   Local at(double u) const {
     Vector d = power_[degree], slope;
@@ -242,9 +242,9 @@ class LarmorCircle {
       slope = d + u * slope;
       d = power_[k] + u * d;
     }
-    const double turn = stands() ? omega_ * (u - on_) : omega_;
+    const double turn = on_curve() ? omega_ * (u - on_) : omega_;
     return {side_of_flight(v_, d, turn), 2.0 * (cross(v_, slope) + turn * dot(d, slope)) +
-                                             (stands() ? omega_ * dot(d, d) : 0.0)};
+                                             (on_curve() ? omega_ * dot(d, d) : 0.0)};
   }
   CurveExit exit_at(double u, double spread) const;
   static bool is_before(double kappa, double other) { return kappa > other; }
@@ -275,7 +275,7 @@ LarmorCircle<degree>::LarmorCircle(const BezierForm& curve, Vector start, Vector
     : curve_(curve), v_(v), omega_(omega), on_(on), power_(curve.power), speed_1_(norm_1(v)) {
   constexpr double u = unit_roundoff, n = degree;
   const double w = std::fabs(omega);
-  if (!stands()) {
+  if (!on_curve()) {
     for (std::size_t i = 0; i <= degree; ++i) control_[i] = curve.control[i] - start;
     power_[0] = control_[0];
     offset_slope_ = curve.speed;
@@ -291,17 +291,17 @@ LarmorCircle<degree>::LarmorCircle(const BezierForm& curve, Vector start, Vector
   for (std::size_t i = 0; i <= degree; ++i) reach = std::max(reach, norm_1(control_[i]));
   // docs/physics/exactness.md, Bézier curves: a coordinate of d and of q, coefficients, values.
   const double more = scale.inflation;
-  off_ = more * (stands() ? (4.0 * n + 4.1) * u * curve.speed
-                          : scale.delta + u * (2.1 * reach + 2.1 * n * curve.reach));
+  off_ = more * (on_curve() ? (4.0 * n + 4.1) * u * curve.speed
+                            : scale.delta + u * (2.1 * reach + 2.1 * n * curve.reach));
   const double side_slope = 2.01 * (speed_1_ + w * (reach + off_));
   error_ = side_slope * (off_ + more * 5.2 * u * reach);
-  coefficient_error_ = side_slope * (stands() ? off_ + more * 13.1 * u * reach
-                                              : more * (scale.delta + 9.1 * u * reach));
+  coefficient_error_ = side_slope * (on_curve() ? off_ + more * 13.1 * u * reach
+                                                : more * (scale.delta + 9.1 * u * reach));
 }
 
 template <std::size_t degree>
 BernsteinPolynomial<NumberWithError, 2 * most> LarmorCircle<degree>::bernstein() const {
-  const std::size_t n = stands() ? degree - 1 : degree;
+  const std::size_t n = on_curve() ? degree - 1 : degree;
   std::array<double, most + 1> g;
   for (std::size_t i = 0; i <= n; ++i) g[i] = cross(v_, control_[i]);
   std::array<double, 2 * most + 1> across{}, square{};
@@ -312,8 +312,8 @@ BernsteinPolynomial<NumberWithError, 2 * most> LarmorCircle<degree>::bernstein()
       square[i + j] += weight * dot(control_[i], control_[j]);
     }
   BernsteinPolynomial<NumberWithError, 2 * most> p;
-  p.degree = 2 * n + (stands() ? 1 : 0);
-  if (!stands()) {
+  p.degree = 2 * n + (on_curve() ? 1 : 0);
+  if (!on_curve()) {
     for (std::size_t k = 0; k <= p.degree; ++k)
       p.b[k] = {across[k] + omega_ * square[k], coefficient_error_};
     return p;
@@ -338,7 +338,7 @@ CurveExit LarmorCircle<degree>::exit_at(double u, double spread) const {
   const double along = dot(v_, d), along_error = speed_1_ * (off + 2.1 * unit_roundoff * size);
   double square = dot(d, d);
   double square_error = 2.01 * off * (size + off) + 2.1 * unit_roundoff * size * size;
-  if (stands()) {
+  if (on_curve()) {
     const double way = u - on_;
     square_error = std::fabs(way) * square_error +
                    (spread + 2.1 * unit_roundoff * std::fabs(way)) * (square + square_error);

@@ -140,7 +140,7 @@ int compare_curvature(const BoundaryRay& a, const BoundaryRay& b) {
 }
 
 /// Which fifth of the turn that starts at `from` a ray lies in: 0 just after it, 1 to the left, 2
-/// opposite, 3 to the right, 4 just before it; -1 when it cannot be told from `from`.
+/// opposite, 3 to the right, 4 just before it; -1 when it cannot be seen from `from`.
 int sector(const BoundaryRay& from, const BoundaryRay& ray) {
   const int side = cross(from.t, ray.t).sign();
   if (side != 0) return side > 0 ? 1 : 3;

@@ -62,7 +62,7 @@ CurveExit exit_between(const auto& path, double first, double last, double from,
   // with it u is off by 2^-24 of the piece at most.
   const double spread = std::max(u - low, high - u);
   if (spread > 0x1p-24) return {};
-  if (path.stands()) {
+  if (path.on_curve()) {
     // Beyond the start a root is left through where the quotient by u - on rises, before it where
     // that falls.
     if (low <= path.on() && high >= path.on()) return {};
@@ -94,7 +94,7 @@ class Search {
     if (roots.most == 0) return true;
     if (roots.least == 1 && roots.most == 1) {
       const bool rises = roots.first == Sign::negative;
-      if (!rises && !path_.stands()) return true;
+      if (!rises && !path_.on_curve()) return true;
       return add(exit_between(path_, p.b[0].value, p.b[p.degree].value, from, to, rises));
     }
     constexpr int deepest = 40;
@@ -120,7 +120,7 @@ class Search {
 /// of them at most is hidden by its error: the search finds one root at once, or none, and from the
 /// signs at the ends it is known which. Undecided: it is for the search to tell.
 CurveExit exit_across(const auto& path) {
-  if (path.stands()) return {};
+  if (path.on_curve()) return {};
   const Course g = path.course();
   if (g.trend == Sign::undecided) return {};
   const Sign first = sign_within(g.first, g.error), last = sign_within(g.last, g.error);

@@ -8,7 +8,7 @@
 
 namespace carom::geometry {
 
-/// The flight as one piece sees it; `known`: parameters at which the particle stands on it.
+/// The flight as one piece sees it; `known`: parameters at which the particle is on it.
 struct FlightAtCurve {
   const ExactCurve& curve;
   ExactPoint start;

@@ -69,8 +69,8 @@ std::vector<Crossing> ExactFlight::Data::exits(int piece, Cell cell, bool starts
   if (c.closed) {
     exit = quadratic_crossing(f);
   } else {
-    // A particle that stands on the joint has it on the left where its wall begins and on the right
-    // where its wall ends: so the wall it stands on is entered there.
+    // A particle on the joint has it on the left where its wall begins and on the right
+    // where its wall ends: so the wall that it is on is entered there.
     int from = 1, to = -1;
     if (!(starts_here && start_at_joint)) {
       from = side(s, {c.from.x, c.from.y, Dyadic(1)});
@@ -225,7 +225,7 @@ ExactFlight::First ExactFlight::first(const std::vector<int>& pieces, Cell cell,
     const ExactCurve& c = d.curve(piece);
     const ExactPoint joint{c.from.x, c.from.y, Dyadic(1)};
     const auto [offset, factor] = Data::offset(s, joint);
-    if (dot(offset, offset).sign() == 0) continue;  // the particle stands on it
+    if (dot(offset, offset).sign() == 0) continue;  // the particle is on it
     const Crossing k = d.through(s, joint);
     if (d.omega.sign() == 0 && k.p.sign() <= 0) continue;
     if (!d.hits_joint(piece, cell, k)) continue;
@@ -276,8 +276,7 @@ bool ExactFlight::exit_within(int piece, int root, Cell cell, double from, doubl
   // A crossing exactly at `from` is inside, at `to` outside.
   const auto at = [&](const ExactPoint& p) {
     const DyadicVector offset = Data::offset(s, p).first;
-    if (dot(offset, offset).sign() == 0)
-      return false;  // where the particle stands it does not arrive
+    if (dot(offset, offset).sign() == 0) return false;  // where the particle is it does not arrive
     if (d.side(s, p) != 0) return false;
     return compare(d.through(s, p), *k) == 0;
   };

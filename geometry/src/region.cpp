@@ -318,7 +318,7 @@ class Check {
     overlapping_boxes(boxes, [&](std::size_t i, std::size_t j) {
       for (const auto& [inner, outer] : {std::pair{i, j}, std::pair{j, i}}) {
         const std::size_t a = whose[inner], b = whose[outer];
-        if (is_disc({a, 0, 0}) && is_disc({b, 0, 0})) continue;  // told by their distance
+        if (is_disc({a, 0, 0}) && is_disc({b, 0, 0})) continue;  // decided by their distance
         // Boxes are larger than what is in them: whether one is in the other does not tell.
         if (!lies_inside(loops_[a], exact_loop(b, 0))) continue;
         const NamedCurve& c = loops_[a][0];
@@ -335,7 +335,7 @@ class Check {
   void copies_inside(std::size_t copy) {
     const Vector by = translation(copy);
     for (std::size_t a = 0; a < loops_.size(); ++a) {
-      if (is_disc({a, 0, 0})) continue;  // discs among themselves: told by their distance
+      if (is_disc({a, 0, 0})) continue;  // discs among themselves: decided by their distance
       for (std::size_t b = 0; b < loops_.size() && !faults_.full(); ++b) {
         if (a == b) continue;
         const Vector back = -by;

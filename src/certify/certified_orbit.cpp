@@ -145,7 +145,8 @@ class WallOrbit final : public certify::FollowedOrbit {
     turns_ = turns != Sign::zero;
     if (!turns_) return;
     if (turns == Sign::undecided)
-      throw InputError(system_.omega.place(), "the magnetic field cannot be told from zero",
+      throw InputError(system_.omega.place(),
+                       "the magnetic field cannot be distinguished from zero",
                        "0, or another number");
   }
 

@@ -213,7 +213,8 @@ class Equations {
       const BallVector &P = a.places[i].point, v = scaled(speed, a.flights[i].out);
       const NearHit &from = hits_[i], &to = hits_[(i + 1) % n];
       const Choice next = scene_.next(where_, P, v, from.wall, in_doubles(P), in_doubles(v));
-      if (next.answer != Choice::wall) return "it cannot be told which wall a flight meets first";
+      if (next.answer != Choice::wall)
+        return "it cannot be decided which wall a flight meets first";
       if (!(next.first == Copy{to.wall, from.step})) return "another wall is in the way";
       const BallVector seen = scene_.lattice ? P - scene_.translation(from.step) : P;
       const bool same = from.wall == to.wall && from.step == geometry::Cell{};
@@ -241,7 +242,7 @@ class Equations {
     const Pieces::Spot from{spots_[i].piece, x[i]}, to{spots_[next].piece, x[next]};
     return meets_nowhere_else(pieces_, flight, from, to)
                ? ""
-               : "a flight meets a wall earlier, or it cannot be told";
+               : "a flight meets a wall earlier, or it cannot be decided";
   }
   Ball half_curvature() const {
     return sign(curvature_) == Sign::negative ? -(curvature_ / 2) : curvature_ / 2;

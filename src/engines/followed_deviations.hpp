@@ -1,4 +1,4 @@
-// Deviations of all particles of a trajectory, carried along by what its world tells of them.
+// Deviations of all particles of a trajectory, carried along by the events of its world.
 #pragma once
 
 #include <array>

@@ -41,7 +41,7 @@ bool OneByOne::run(Starts& starts, Listener& listener, const std::function<bool(
     stopped_ = &stopped;
     if (deviations_) {
       deviations_->begin(trajectory_.starts, trajectory_.particles, options_.unit_length);
-      told_.assign(trajectory_.starts.size(), {});
+      heard_.assign(trajectory_.starts.size(), {});
     }
     world_.run_until(options_.t_end, *this, stopped);
     if (asked_to_stop()) return false;
@@ -75,9 +75,9 @@ void OneByOne::add_particles() {
 
 void OneByOne::stretch(std::size_t particle, const Time& time, bool also_at) {
   const std::size_t with = deviations_->reported_with(particle);
-  Told& told = told_[with];
-  for (; told.marks < options_.deviations.size(); ++told.marks) {
-    const double mark = options_.deviations[told.marks];
+  Heard& heard = heard_[with];
+  for (; heard.marks < options_.deviations.size(); ++heard.marks) {
+    const double mark = options_.deviations[heard.marks];
     if (also_at ? Time(mark) > time : !(Time(mark) < time)) return;
     const std::span<const double> logarithms = deviations_->logarithms(with, mark, *stopped_);
     // The group flies beside the world, with steps that end at the marks, too.
@@ -87,7 +87,7 @@ void OneByOne::stretch(std::size_t particle, const Time& time, bool also_at) {
                                    "trajectory {} they ran away before t = {:.6g}",
                                    system_.dynamics.integrator.step, trajectory_.number, mark),
                        "a shorter step");
-    listener_->stretched(trajectory_, static_cast<int>(with), told.marks, logarithms, told.hits);
+    listener_->stretched(trajectory_, static_cast<int>(with), heard.marks, logarithms, heard.hits);
   }
 }
 
@@ -95,9 +95,9 @@ void OneByOne::carry_over_hit(std::size_t particle, const State& state) {
   stretch(particle, state.time, false);
   deviations_->hit(particle, state, world_, *stopped_);
   if (deviations_->in_group(particle))
-    ++told_[deviations_->reported_with(particle)].hits;
+    ++heard_[deviations_->reported_with(particle)].hits;
   else
-    told_[particle].hits = world_.hits(static_cast<int>(particle));
+    heard_[particle].hits = world_.hits(static_cast<int>(particle));
 }
 
 void OneByOne::stepped(int particle, Time time, bool part) {

@@ -36,8 +36,8 @@ class OneByOne : public Engine, private Observer {
   void stretch(std::size_t particle, const Time& time, bool also_at);
   void carry_over_hit(std::size_t particle, const State&);
 
-  /// What the listener was told of a particle or a group.
-  struct Told {
+  /// What the listener has heard of a particle or a group.
+  struct Heard {
     std::size_t marks = 0;  ///< times that were reported
     std::uint64_t hits = 0;
   };
@@ -49,7 +49,7 @@ class OneByOne : public Engine, private Observer {
   TrajectoryEnd end_;
   std::size_t samples_ = 0;  ///< times of this trajectory that are sampled
   std::optional<FollowedDeviations> deviations_;
-  std::vector<Told> told_;
+  std::vector<Heard> heard_;
   const std::function<bool()>* stopped_ = nullptr;
 };
 

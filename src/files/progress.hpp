@@ -38,7 +38,7 @@ class Progress {
   std::string line_ = "\rpreparing";
   std::mutex mutex_;  ///< of the line, of when and whether it was shown, and of the end
   std::condition_variable end_;
-  std::thread clock_;  ///< last: it uses what stands above
+  std::thread clock_;  ///< last: it uses the members above
 };
 
 /// How long the rest will take after `seconds` took the work from the share `from` to `share`.

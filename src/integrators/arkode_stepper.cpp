@@ -66,7 +66,7 @@ ArkodeStepper::ArkodeStepper(const ForceLaw<double>& law, std::span<const double
   ARKStepSetUserData(memory_, &problem_);
   ARKStepSetTables(memory_, table->q, table->p, nullptr, table);  // which copies it
   ARKStepWFtolerances(memory_, OdeProblem::weights);
-  ARKStepSetAdaptivityMethod(memory_, ARK_ADAPT_I, 1, 0, nullptr);  // each step stands alone
+  ARKStepSetAdaptivityMethod(memory_, ARK_ADAPT_I, 1, 0, nullptr);  // each step is independent
   ARKStepSetMaxFirstGrowth(memory_, 5.0);
   ARKStepSetMaxErrTestFails(memory_, 20);
 }

@@ -23,7 +23,7 @@ bool continues(const Table& table, const Wall& wall) {
   return is_bezier(wall) && wall.corner == 1 && is_bezier(table.wall(wall.previous));
 }
 
-/// Along the pieces of a Bézier curve. A curve without a joint is gone round once at most.
+/// Along the pieces of a Bézier curve. A curve without a joint is followed round once at most.
 WallPlace along_pieces(const Boundary& boundary, WallPlace at, double distance, bool& left_wall) {
   const auto frame = [&](int wall) -> const geometry::CurveFrame& {
     return boundary.frames[static_cast<std::size_t>(wall)];

@@ -130,7 +130,7 @@ class Division {
     set(static_cast<int>(rings_.size()) - 1, std::move(ring));
   }
 
-  /// What lies within a ring goes to another region, but for the ring `beside`.
+  /// What lies within a ring goes to another region, except the ring `beside`.
   void move_contents(int around, int beside, int to) {
     const Ring& outer = rings_[at(around)];
     const int from = rings_[at(beside)].region;

@@ -140,7 +140,7 @@ void refuse_misplaced(const TableSpec& spec, const Table& table);
 Place place_of_wall(const TableSpec& spec, const Table& table, std::size_t wall);
 
 /// Is the table a region: closed, simple, oriented, obstacles inside and apart? Exact. True if it
-/// is but for obstacles inside obstacles, which may be regions.
+/// is, except obstacles inside obstacles, which may be regions.
 bool check_region(const TableSpec& spec, const Table& table);
 /// The same of a part of a table, whose walls have their places by name.
 void check_part(const Table& part, const std::function<Place(const std::string&)>& place_of);

@@ -26,7 +26,7 @@ bool has_checkpoint(const std::string& file);
 /// records that this names.
 void remove_checkpoint(const std::string& file);
 /// The file behind a name: symbolic links are followed, to a file that is not there yet, too, so
-/// that what stands beside an archive stands beside the file and not beside the link. Throws
+/// that what is beside an archive is beside the file and not beside the link. Throws
 /// InputError where links lead round.
 std::string followed(const std::string& name);
 /// The archive that a user means: FILE for the name of its folder FILE.part.

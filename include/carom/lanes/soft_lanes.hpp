@@ -15,7 +15,7 @@ namespace carom {
 class SoftLanes : public Lanes {
  public:
   /// What keeps such particles out of lanes, as a phrase; "" where nothing does: forces act
-  /// everywhere, and nothing but forces, a magnetic field and walls: no interaction, a fixed step,
+  /// everywhere, and only forces, a magnetic field and walls: no interaction, a fixed step,
   /// walls = "reflect". The particles are accelerated alike.
   static std::string hindrance(const Table&, const Dynamics&, const std::vector<Particle>&);
 

@@ -60,7 +60,7 @@ void LyapunovListener::begin(const Trajectory& t) {
     const geometry::Vector v = t.starts[p].velocity;
     mine.pace = std::sqrt(dot(v, v)) / unit_length_;
     mine.hits_before = 0;
-    mine.told = mine.told_length = mine.spread = 0.0;
+    mine.marked = mine.grown = mine.spread = 0.0;
     mine.chaotic = false;
     mine.growth.growth.assign(blocks_, 0.0);
     mine.growth.hits.assign(blocks_, 0);
@@ -79,8 +79,8 @@ void LyapunovListener::stretched(const Trajectory& t, int particle, std::size_t 
 
 void LyapunovListener::take(Orbit& mine, const GrowthTimes::Mark& mark,
                             std::span<const double> logarithms, std::uint64_t hits) const {
-  mine.told = mark.time;
-  mine.told_length = logarithms[0];
+  mine.marked = mark.time;
+  mine.grown = logarithms[0];
   // Of a frame the growth of the first tells: that of the second may be another particle's.
   const bool frame = system_.run.spectrum;
   mine.spread = logarithms[0] + logarithms[frame ? 0 : 1];
@@ -122,12 +122,12 @@ TrajectoryRecord LyapunovListener::record(const Trajectory& t, const TrajectoryE
   TrajectoryRecord r = record_of_(index_of(t, p), t.starts[p], end.particles[p]);
   // Those that interact are one orbit, whose deviations come with the first.
   const Orbit& mine = under_way_[t.slot][together_ ? 0 : p];
-  if (!(mine.told > 0.0)) return r;
+  if (!(mine.marked > 0.0)) return r;
   const TimeWindow window = growth_window(system_);
   double growth = 0.0;
   for (const double block : mine.growth.growth) growth += block;
   r.lambda =
-      mine.told >= window.to ? growth / (window.to - window.from) : mine.told_length / mine.told;
+      mine.marked >= window.to ? growth / (window.to - window.from) : mine.grown / mine.marked;
   r.sali = sali_of(mine.spread);
   r.regularity = static_cast<unsigned char>(mine.growth.regularity);
   return r;

@@ -54,7 +54,7 @@ class LyapunovListener : public engines::EnsembleListener<LyapunovResult> {
     double pace = 1.0;    ///< mean flights in a unit of time
     double length = 0.0;  ///< ln|w| at the last mark of the window
     std::uint64_t hits_before = 0;
-    double told = 0.0, told_length = 0.0, spread = 0.0;  ///< at the last mark: time, ln|w|, of both
+    double marked = 0.0, grown = 0.0, spread = 0.0;  ///< at the last mark: time, ln|w|, of both
     bool chaotic = false;
     OrbitGrowth growth;
     std::vector<double> frame, frame_before;  ///< growth in each block; logarithms at the last mark

@@ -72,7 +72,7 @@ struct Ended : Observer {
 
 }  // namespace
 
-// A stored run is asked to go on where it has ended: no event comes, and the end is told again.
+// A stored run is asked to go on where it has ended: no event comes, and the end is reported again.
 OutcomePointer open_run(const std::string& file) {
   const OpenedFile opened(file);
   const StoredRun stored = read_run(file);

@@ -115,7 +115,7 @@ class Population {
   std::size_t first_loss_ = 0;          // the first report by which a trajectory has gone
   std::vector<double>
       gone_by_;  // share gone between reports in the stages before; the last entry after all
-  std::vector<std::uint64_t> going_;  // number gone in this stage, likewise
+  std::vector<std::uint64_t> going_;  // number gone in this stage, too
 };
 
 }  // namespace carom::analyses

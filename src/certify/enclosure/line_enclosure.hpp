@@ -57,7 +57,7 @@ class LineEnclosure final : public StateEnclosure {
   BallVector velocity_;  ///< midpoints
   Ball moment_;
   BallVector anchor_;
-  int wall_ = -1;   ///< that it stands on; -1: at the start, which is the anchor
+  int wall_ = -1;   ///< that it is on; -1: at the start, which is the anchor
   TurningBox box_;  ///< errors of the moment in units of moment_unit, and of the direction
   Bound stretch_;   ///< |log| of the true speed over that of velocity_
   Bound along_;     ///< of the position along the wall, in the unit
@@ -65,7 +65,7 @@ class LineEnclosure final : public StateEnclosure {
   std::optional<Turn>
       turn_;       ///< of the last arc: again and again the same while the orbit stays there
   BallState few_;  ///< the true state, enclosed in numbers of few bits
-  Ball ahead_;     ///< v . (P - anchor), likewise
+  Ball ahead_;     ///< v . (P - anchor), at the same time
   std::uint64_t hits_ = 0;
 };
 

@@ -72,7 +72,7 @@ class Search {
   Search(const Piece& piece, const FlightBetween& flight) : piece_(piece), flight_(flight) {}
   void leave_out(const Ball& end) { ends_.push_back(end); }
 
-  /// Is the part from a to b off the flight, but for the ends?
+  /// Is the part from a to b off the flight, except the ends?
   bool is_clear(double a, double b, int depth = most_halvings) {
     const double middle = 0.5 * (a + b), half = 0.5 * (b - a);
     Sign slope{};

@@ -29,13 +29,13 @@ inline Ball slope_of_side(const BallVector& direction, const Ball& curvature, co
 
 /// About where a flight first leaves the domain, if it does: a guess, to begin a proof with.
 std::optional<Pieces::Spot> first_exit(const Pieces&, const FlightBetween&);
-/// Proves it: false where it is not so, or cannot be told. `first` and `last` enclose the
+/// Proves it: false where it is not so, or cannot be decided. `first` and `last` enclose the
 /// parameters at both ends; no first one: the flight begins off the curves.
 bool meets_nowhere_else(const Pieces&, const FlightBetween&,
                         const std::optional<Pieces::Spot>& first,
                         const std::optional<Pieces::Spot>& last);
 /// How often the curves go round a point, counter-clockwise where the domain is on their left.
-/// Nothing where that cannot be told: near a curve.
+/// Nothing where that cannot be decided: near a curve.
 std::optional<int> turns_round(const Pieces&, const BallVector& point);
 
 }  // namespace carom::certify

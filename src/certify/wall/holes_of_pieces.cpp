@@ -109,7 +109,7 @@ Passage HolesOfPieces::passage(const Pieces::Spot& spot) const {
           Ball(std::floor((t - piece.from).to_double() / piece.length.to_double())) * piece.length;
     if (sign(end - t) == Sign::negative) t = t - piece.length;
     if (sign(t - piece.from) == Sign::negative) t = t + piece.length;
-    // Beside the joint of both ends, walls that begin or end there cannot be told.
+    // Beside the joint of both ends, walls that begin or end there cannot be decided.
     if (!stretch.whole &&
         !(sign(t - piece.from) == Sign::positive && sign(end - t) == Sign::positive)) {
       unknown = {Verdict::undecided, opening.hole};

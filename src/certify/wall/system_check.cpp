@@ -40,7 +40,7 @@ void check_walls(const ExactSystem& system) {
       throw InputError(stem.place(), "the stem is wider than the cap",
                        "stem_width <= 2 cap_radius");
     if (brim == Sign::undecided)
-      throw InputError(stem.place(), "whether the stem is as wide as the cap cannot be told",
+      throw InputError(stem.place(), "whether the stem is as wide as the cap cannot be decided",
                        "numbers that differ by more");
     if ((brim == Sign::positive) != (system.table->wall_index("brim_left") >= 0))
       throw other_walls();
@@ -137,7 +137,8 @@ void check_inside(const ExactSystem& system) {
     } catch (const NotRational&) {  // more bits may tell
     }
   }
-  refuse("is not told from a point on a wall by " + std::to_string(most_bits_of_a_sign) + " bits",
+  refuse("is not distinguished from a point on a wall by " + std::to_string(most_bits_of_a_sign) +
+             " bits",
          "a point farther from the walls");
 }
 
@@ -151,7 +152,7 @@ void check_velocity(const ExactStart& start) {
   if (x == Sign::zero && y == Sign::zero)
     throw InputError(start.direction.x.place(), "the velocity is zero",
                      "a velocity that is not zero");
-  throw InputError(start.direction.x.place(), "the velocity cannot be told from zero",
+  throw InputError(start.direction.x.place(), "the velocity cannot be distinguished from zero",
                    "another velocity");
 }
 

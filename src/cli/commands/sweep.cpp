@@ -64,7 +64,7 @@ class Sweep {
   std::vector<Origin> before_;
 };
 
-/// What a rank is told to do with a value.
+/// What a rank has to do with a value.
 constexpr const char *begin_value = "begin", *stored_value = "stored", *stop_here = "stop";
 
 void Sweep::prepare() {

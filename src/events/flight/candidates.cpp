@@ -43,7 +43,7 @@ bool ends_on_ellipse(const PreparedCurve& w, Vector e, Vector v, double omega, d
 
 }  // namespace
 
-bool PieceTable::stands_on_ellipse(const Flight& f, int piece) const {
+bool PieceTable::is_on_ellipse(const Flight& f, int piece) const {
   const PieceData& p = data[at(piece)];
   const auto begins_on = [&](int start) {
     if (start < 0) return false;
@@ -55,7 +55,7 @@ bool PieceTable::stands_on_ellipse(const Flight& f, int piece) const {
 
 Sign PieceTable::first_exit(const Flight& f, int piece, const Origin& seen, double inflation,
                             Crossing& c) const {
-  const bool on_wall = stands_on_ellipse(f, piece);
+  const bool on_wall = is_on_ellipse(f, piece);
   const PreparedCurve& w = *data[at(piece)].shape;
   FlightScale s = seen.scale;
   s.inflation = inflation;
@@ -130,7 +130,7 @@ double PieceTable::error_of(const Flight& f, const Ahead& ahead) const {
     return first_exit(f, ahead.piece, o, options.filter_inflation, c) == Sign::positive ? c.error
                                                                                         : HUGE_VAL;
   }
-  const bool on_wall = stands_on(f, ahead.piece);
+  const bool on_wall = is_on(f, ahead.piece);
   const Crossing c = crossing_of(f, ahead.piece, o, on_wall);
   return kappa_error(c.quadratic, quadratic_error(*p.shape, o.point, o.scale, on_wall), c.root);
 }

@@ -44,7 +44,7 @@ inline constexpr double least_square = 0x1p-900;
   if (t_.enclosure.size() > 1) {
     wall = t_.enclosure.exit_of_line(origin, v, bound);
     if (wall < 0) return false;
-    if (wall == t_.enclosure.size()) {  // all joints on one side: through the arc that it stands on
+    if (wall == t_.enclosure.size()) {  // all joints on one side: through the arc that it is on
       wall = f.start_piece;
       if (wall < 0 || !t_.enclosure.bent(wall)) return false;
     }

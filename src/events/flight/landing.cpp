@@ -46,7 +46,7 @@ int PieceTable::hole_at(const Flight& f, const Ahead& ahead, double u,
   }
   ++counts.exact;
   const ExactFlight flight = exact_flight(f);
-  const bool on_wall = stands_on(f, ahead.piece);
+  const bool on_wall = is_on(f, ahead.piece);
   for (const int h : wall.holes) {
     const Hole& hole = table.holes[at(h)];
     if (hole.from == 0.0 && hole.to >= end_parameter(wall.curve)) return h;  // all of the wall

@@ -36,7 +36,7 @@ struct Meeting {
   const Origin& origin;
   const PreparedCurve& curve;
   int piece;
-  bool on_wall;    ///< the particle stands on it
+  bool on_wall;    ///< the particle is on it
   bool same_side;  ///< both its joints lie on one side of the flight; not of closed curves …
   bool left;       ///< … on the left
 
@@ -271,9 +271,9 @@ bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> 
     const PieceTable::PieceData& p = t_.data[at(piece)];
     // At most two crossings, so the sides of its joints tell, except for a Larmor circle that may
     // cross an ellipse four times, and for Bézier curves.
-    const bool told =
+    const bool known =
         !p.closed && !(larmor && p.kind == CurveKind::ellipse) && p.kind != CurveKind::bezier;
-    if (told && left_[at(piece)] != 0 && left_[at(p.next)] == 0) continue;  // it enters
+    if (known && left_[at(piece)] != 0 && left_[at(p.next)] == 0) continue;  // it enters
     const Meeting m = meeting(piece);
     Crossing c;
     const Sign leaves = leaves_through<larmor>(m, c);
@@ -405,7 +405,7 @@ Ahead HitFinder::exact_next(const Flight& f, const std::vector<int>& pieces) con
     const bool same = t_.first_exit(f, ahead.piece, origin, 1.0, c) == Sign::positive;
     ahead.kappa = same ? c.root.kappa : first.kappa;
   } else {
-    const bool on_wall = PieceTable::stands_on(f, ahead.piece);
+    const bool on_wall = PieceTable::is_on(f, ahead.piece);
     const Crossing c = t_.crossing_of(f, ahead.piece, origin, on_wall);
     ahead.kappa = c.root.kappa;
     if (f.omega == 0.0) {

@@ -134,9 +134,9 @@ struct PieceTable {
   /// thin walls, but those of flights that begin there.
   bool is_rough(const Flight& flight, int number) const {
     return thin && piece(number).shape->thin() &&
-           (!stands_on(flight, number) || is_quartic(flight, number));
+           (!is_on(flight, number) || is_quartic(flight, number));
   }
-  static bool stands_on(const Flight& flight, int piece) {
+  static bool is_on(const Flight& flight, int piece) {
     return piece == flight.start_piece || piece == flight.start_previous;
   }
 
@@ -217,7 +217,7 @@ struct PieceTable {
 
   int edge_crossed_at_start(const Flight& flight) const;
   void find_start(Flight& flight) const;
-  bool stands_on_ellipse(const Flight& flight, int piece) const;
+  bool is_on_ellipse(const Flight& flight, int piece) const;
   Sign on_part(const Flight& flight, int piece, const Origin& origin, const Crossing& crossing,
                double inflation) const;
   Sign exactly_inward(int wall, double u, geometry::Vector v, DecisionCounts& counts) const;

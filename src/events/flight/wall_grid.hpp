@@ -310,7 +310,7 @@ class WallGrid {
   void cover(const Reach& reach, const Visit& visit) const;
   struct Crowd {
     double entries = 0.0;  ///< of all lists together
-    double company = 0.0;  ///< how long the list is in which an entry stands, on average
+    double company = 0.0;  ///< the length of the list that holds an entry, on average
   };
   Crowd cut(const std::vector<Reach>& reaches, const geometry::Box& within, double cells);
   void find_clearances();

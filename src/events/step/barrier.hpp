@@ -67,7 +67,7 @@ struct Barrier {
   /// has it within one more.
   static Real on_wall() { return Real(4); }
   /// Is the particle on the piece, or beyond it, to rounding?
-  bool stands_on(const Vector& x) const {
+  bool is_on(const Vector& x) const {
     const Real g = gap(x);
     return !(g > Real(0)) && !(g < -off_wall(x)) &&
            (covers(x) || is_at(End::from, x) || is_at(End::to, x));

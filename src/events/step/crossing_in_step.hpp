@@ -124,7 +124,7 @@ class CrossingSearch {
 
   bool hits_at_once(const Barrier<Real>& b, std::size_t i, const Knot& k) const {
     const auto &x = k.phase.position[i], &v = k.phase.velocity[i];
-    return b.rate(x, v) < -b.rate_rounding(x, v) && b.stands_on(x);
+    return b.rate(x, v) < -b.rate_rounding(x, v) && b.is_on(x);
   }
 
   Knot* search(const Barrier<Real>& b, std::size_t i, Knot& from, Knot& to, int depth) {
@@ -231,10 +231,10 @@ class CrossingSearch {
   }
 
   // The path crosses the carrier beyond the piece. If it also passes that end of the piece, to
-  // rounding, the gap changes by no more than rounding between the two, and they cannot be told
-  // apart: nearly along a wall, that may be many roundings of the point. The wall beyond the joint
-  // may find its crossing before it, so neither would be hit. Points of the path are rounded as its
-  // start is, be they nearer to the origin.
+  // rounding, the gap changes by no more than rounding between the two, and they cannot be
+  // distinguished apart: nearly along a wall, that may be many roundings of the point. The wall
+  // beyond the joint may find its crossing before it, so neither would be hit. Points of the path
+  // are rounded as its start is, be they nearer to the origin.
   Knot* at_end(const Barrier<Real>& b, typename Barrier<Real>::End which, std::size_t i,
                Knot& found, const Knot& from, const Knot& to) {
     const auto &x = found.phase.position[i], &start = path_.start().phase.position[i],

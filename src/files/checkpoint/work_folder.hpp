@@ -1,4 +1,4 @@
-// FILE.part, the folder in which an archive FILE is made: everything that stands beside FILE stands
+// FILE.part, the folder in which an archive FILE is made: everything that is beside FILE is
 // in it.
 #pragma once
 

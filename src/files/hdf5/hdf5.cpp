@@ -16,7 +16,7 @@ namespace carom::files::hdf5 {
 namespace {
 
 struct Reasons {
-  std::string system;  ///< of the operating system, which stands deep in HDF5's error stack
+  std::string system;  ///< of the operating system, deep in HDF5's error stack
   std::string own;     ///< the deepest one
   bool no_memory = false;
 };

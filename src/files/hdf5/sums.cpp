@@ -21,7 +21,7 @@ std::uint32_t crc32(const void* bytes, std::size_t size, std::uint32_t before) {
 }
 
 // With the words w_0 ... w_{n-1} of two bytes, the higher first, the two halves are the sums of w_i
-// and of (n - i) w_i modulo 65535, of which 0 stands for words that are all 0 and 65535 for other
+// and of (n - i) w_i modulo 65535, where 0 means words that are all 0, and 65535 means other
 // multiples. Words are taken with the lower byte first, two sums a register: 256 times these are
 // those wanted. Eight bytes at a time: the k-th of m groups counts 4 (m - k) - r in its word r. The
 // last group may have zeros after it, of which whole words count nothing.

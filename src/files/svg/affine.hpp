@@ -1,4 +1,4 @@
-// Transforms of a drawing, exact but for the cosines and sines of turns, which are doubles.
+// Transforms of a drawing, exact except for the cosines and sines of turns, which are doubles.
 #pragma once
 
 #include "files/svg/numbers.hpp"

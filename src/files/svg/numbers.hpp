@@ -12,7 +12,7 @@
 
 namespace carom::files {
 
-/// A drawing's numbers are decimals, and what is computed from them is exact, but for turns.
+/// A drawing's numbers are decimals, and what is computed from them is exact, except for turns.
 using Rational = mpq_class;
 
 /// Reads an attribute from its start to its end.

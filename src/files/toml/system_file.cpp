@@ -31,7 +31,7 @@ bool contains(const std::vector<std::string>& list, const std::string& word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-/// ", it belongs to [SECTION], …": a key that stands above all sections.
+/// ", it belongs to [SECTION], …": a key above all sections.
 std::string owners_of(const std::string& key) {
   std::vector<std::string> owners;
   for (const KeyDescription& one : key_table()) {

@@ -19,7 +19,7 @@ struct LaneTrajectory {
   LaneStart start;               ///< or where the scalar engine left it
   std::uint64_t first_hits = 0;  ///< when it began
   std::size_t reported = 0;      ///< times
-  std::uint64_t told = 0;        ///< hits that were reported, if they are
+  std::uint64_t heard = 0;       ///< hits that were reported, if they are
   motion::FreeTangent tangent;   ///< where `start` is, if deviations are followed
   std::size_t marked = 0;        ///< times at which their lengths were reported
 

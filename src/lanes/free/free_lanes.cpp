@@ -211,7 +211,7 @@ class FreeLanes::Implementation {
         throw std::invalid_argument("a particle that turns another way");
       mine.first_hits = mine.start.hits;
       mine.reported = 0;
-      mine.told = mine.start.hits;
+      mine.heard = mine.start.hits;
       if (tangents.any()) tangents.begin(mine);
       while (mine.reported < times.size() && Time(times[mine.reported]) < mine.start.state.time)
         ++mine.reported;
@@ -259,8 +259,8 @@ class FreeLanes::Implementation {
       if (lanes.pack.active[lane] == 0.0) continue;
       LaneTrajectory& mine = lanes.trajectory(lane);
       const auto hits = static_cast<std::uint64_t>(lanes.pack.hits(lane));
-      if (hits == mine.told) continue;
-      mine.told = hits;
+      if (hits == mine.heard) continue;
+      mine.heard = hits;
       // A call reports its last one.
       State state;
       on_wall(lanes, lane, state);
@@ -366,7 +366,7 @@ class FreeLanes::Implementation {
     scalar.learn();
     const bool has_hit = scalar.hits() > mine.start.hits;
     if (has_hit && tangents.any()) tangents.hit(mine, scalar.state());
-    mine.start.hits = mine.told = scalar.hits();
+    mine.start.hits = mine.heard = scalar.hits();
     mine.start.state = scalar.state();
     if (has_hit && hit && !hit(mine.start.tag, mine.start.state, mine.start.hits) &&
         mine.start.hits < limit) {

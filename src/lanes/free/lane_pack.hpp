@@ -27,7 +27,7 @@ struct LanePack {
   alignas(alignment) double x[lanes] = {};
   double y[lanes] = {}, vx[lanes] = {}, vy[lanes] = {};
   double high[lanes] = {}, low[lanes] = {};  ///< time
-  double piece[lanes] = {};                  ///< that it stands on; -1: none
+  double piece[lanes] = {};                  ///< that it is on; -1: none
   double born[lanes] = {};                   ///< the sweep at which it would have had no hits
   // On a lattice: the cell of the last hit, and the cell of the flight, counted from there.
   double home_first[lanes] = {}, home_second[lanes] = {}, cell_first[lanes] = {},

@@ -7,7 +7,7 @@
 
 namespace carom::lanes {
 
-// The side of a joint, of a cell's edge and what stands under a root err by 2^-44 of S =
+// The side of a joint, of a cell's edge and what is under a root err by 2^-44 of S =
 // LaneTable::size, times the speed s, or S again. In these units signs are certain beyond this, 2^5
 // times the error or more (docs/developer/lanes.md derives all margins).
 inline constexpr double side_margin = 0x1p-36;

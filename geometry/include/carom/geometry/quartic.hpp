@@ -40,7 +40,7 @@ RisingRoots rising_roots(const Quartic<double>& f, const QuarticError& error, in
 /// operations.
 double likely_root(const Quartic<double>& f, int degree);
 
-/// Coefficients' errors for ellipse_quartic; as ellipse_error. `stands`: the start lies on the
+/// Coefficients' errors for ellipse_quartic; as ellipse_error. `on_wall`: the start lies on the
 /// curve.
 QuarticError quartic_error(const FlightScale& f, double e1, double centre_error, double row,
                            bool on_wall);
