@@ -7,18 +7,25 @@
 
 namespace carom::base {
 
+namespace {
+
+// Not by way of long double, which is another type on each kind of machine.
+using InDoubles = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+using Student = boost::math::students_t_distribution<double, InDoubles>;
+using ChiSquared = boost::math::chi_squared_distribution<double, InDoubles>;
+
+}  // namespace
+
 double student_quantile(double p, double degrees) {
-  return boost::math::quantile(boost::math::students_t_distribution<double>(degrees), p);
+  return boost::math::quantile(Student(degrees), p);
 }
 
 double student_beyond(double t, double degrees) {
-  const boost::math::students_t_distribution<double> student(degrees);
-  return 2.0 * boost::math::cdf(boost::math::complement(student, std::fabs(t)));
+  return 2.0 * boost::math::cdf(boost::math::complement(Student(degrees), std::fabs(t)));
 }
 
 double chi_squared_beyond(double value, double degrees) {
-  return boost::math::cdf(
-      complement(boost::math::chi_squared_distribution<double>(degrees), value));
+  return boost::math::cdf(boost::math::complement(ChiSquared(degrees), value));
 }
 
 }  // namespace carom::base
