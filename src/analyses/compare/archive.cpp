@@ -126,6 +126,7 @@ void write_comparison(const std::string& name, const LoadedSystem& loaded, const
   file.write_seconds({result.seconds, result.cpu_seconds});
   file.set_status(result.complete ? "completed" : "interrupted", result.complete);
   file.keep_as(name);
+  give_up_checkpoint(name);
 }
 
 StoredComparison read_comparison(const std::string& name) {

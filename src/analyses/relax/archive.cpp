@@ -51,6 +51,7 @@ void write_equilibria(const std::string& target, const LoadedSystem& loaded,
                       ArchiveLock lock) {
   if (!lock) lock = lock_archive(target);
   refuse_existing(target, force);
+  hdf5::silence();
   ArchiveFile file = ArchiveFile::create(aside_of(target), target);
   file.write_head(relax_archive_kind, loaded, origin);
   {
@@ -80,6 +81,7 @@ void write_equilibria(const std::string& target, const LoadedSystem& loaded,
 }
 
 StoredEquilibria read_equilibria(const std::string& name) {
+  hdf5::silence();
   const Handle file =
       open_archive(name, "the file is not an archive", "an archive written by carom relax -o");
   if (hdf5::read_string_attribute(file.get(), "kind", name) != relax_archive_kind)
