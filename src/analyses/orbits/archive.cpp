@@ -120,9 +120,6 @@ ProofsOfOrbits read_proofs(hid_t file, const std::string& name) {
   return proofs;
 }
 
-const char* const names_of_stability[] = {"elliptic", "hyperbolic", "inverse hyperbolic",
-                                          "parabolic"};
-
 }  // namespace
 
 template <>
@@ -163,10 +160,10 @@ void write_orbits(const std::string& name, const LoadedSystem& loaded, const Pro
     const hid_t to = group.get();
     write_columns(to, std::span(orbits), name);
     write_columns(to, std::span<const OrbitExtra>(extras_of(orbits)), name);
-    hdf5::write_attribute(
-        to, "stabilities",
-        std::vector<std::string>(std::begin(names_of_stability), std::end(names_of_stability)),
-        name);
+    std::vector<std::string> stabilities;
+    for (int k = 0; k <= static_cast<int>(Stability::parabolic); ++k)
+      stabilities.push_back(name_of(static_cast<Stability>(k)));
+    hdf5::write_attribute(to, "stabilities", stabilities, name);
     hdf5::write_attribute(to, "most_hits", most_hits, name);
     hdf5::write_attribute(to, "zeta", std::int64_t{found.cycles.has_value()}, name);
     each_field<Fields<OrbitSearchResult>>(
