@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "carom/base/elementary.hpp"
 #include "carom/certify/certified_periodic_orbit.hpp"
 #include "certify/flight/beside_curve.hpp"
 #include "certify/flight/larmor_flight.hpp"

@@ -11,7 +11,6 @@
 #include "files/checkpoint/ensemble_columns.hpp"
 #include "files/checkpoint/work_folder.hpp"
 #include "files/hdf5/archive_file.hpp"
-#include "files/hdf5/checksums.hpp"
 #include "files/hdf5/fields.hpp"
 
 namespace carom {
