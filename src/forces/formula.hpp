@@ -42,10 +42,6 @@ struct TypedExpression::Formula {
   std::size_t variables = 0;
   std::vector<forces::formula::Instruction> instructions;
   std::size_t result = 0;
-
-  double value(const double* at) const;
-  double value_and_gradient(const double* at, double* gradient) const;
-  double value_gradient_and_hessian(const double* at, double* gradient, double* hessian) const;
 };
 
 }  // namespace carom
