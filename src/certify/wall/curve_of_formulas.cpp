@@ -14,11 +14,7 @@ namespace {
 
 using Function = base::Operation;
 
-Ball indeterminate() {
-  Ball r;
-  arb_indeterminate(r.raw());
-  return r;
-}
+Ball indeterminate() { return made<Ball>(arb_indeterminate); }
 
 Series without_derivatives(const Ball& value) {
   Series r(value);
