@@ -65,7 +65,6 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
     second_axis = {-p.y / root, p.x / root};
     const double axis = std::sqrt(dot(p, p));
     first_direction = {p.x / axis, p.y / axis};
-    second_direction = left(first_direction);
     second_weight = dot(p, p) / rounded(exact_curve.r2);
     first_weight = k * k * second_weight;
   }

@@ -10,7 +10,23 @@
 
 namespace carom::base {
 
-enum class FormulaFunction : std::uint8_t {
+/// Of a formula. a, b: results of earlier operations; c: a number. From `root` on, words.
+enum class Operation : std::uint8_t {
+  number,        // c
+  negative,      // -a
+  sum,           // a + b
+  shifted,       // a + c
+  difference,    // a - b
+  number_minus,  // c - a
+  product,       // a b
+  multiple,      // c a
+  quotient,      // a / b
+  share,         // a / c
+  number_over,   // c / a
+  whole_power,   // a^n
+  half_power,    // a^n sqrt(a)
+  real_power,    // a^c
+  power,         // a^b
   root,
   exp,
   log,
@@ -28,17 +44,15 @@ enum class FormulaFunction : std::uint8_t {
 
 struct FormulaWord {
   const char* name;
-  FormulaFunction function;
+  Operation operation;
   int arguments;
 };
 inline constexpr FormulaWord formula_words[] = {
-    {"sqrt", FormulaFunction::root, 1},  {"exp", FormulaFunction::exp, 1},
-    {"log", FormulaFunction::log, 1},    {"sin", FormulaFunction::sin, 1},
-    {"cos", FormulaFunction::cos, 1},    {"tan", FormulaFunction::tan, 1},
-    {"sinh", FormulaFunction::sinh, 1},  {"cosh", FormulaFunction::cosh, 1},
-    {"tanh", FormulaFunction::tanh, 1},  {"abs", FormulaFunction::abs, 1},
-    {"min", FormulaFunction::least, 2},  {"max", FormulaFunction::greatest, 2},
-    {"atan2", FormulaFunction::atan2, 2}};
+    {"sqrt", Operation::root, 1},  {"exp", Operation::exp, 1},   {"log", Operation::log, 1},
+    {"sin", Operation::sin, 1},    {"cos", Operation::cos, 1},   {"tan", Operation::tan, 1},
+    {"sinh", Operation::sinh, 1},  {"cosh", Operation::cosh, 1}, {"tanh", Operation::tanh, 1},
+    {"abs", Operation::abs, 1},    {"min", Operation::least, 2}, {"max", Operation::greatest, 2},
+    {"atan2", Operation::atan2, 2}};
 
 /// A function by its name, or null.
 inline const FormulaWord* formula_word(std::string_view name) {

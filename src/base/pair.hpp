@@ -5,6 +5,10 @@
 #include <emmintrin.h>
 #endif
 
+#include <array>
+#include <cstddef>
+#include <cstring>
+
 namespace carom::base {
 
 /// Arithmetic of a Pair is that of its two doubles, each rounded by itself.
@@ -17,6 +21,16 @@ inline Pair magnitude(Pair x) {
   return reinterpret_cast<Pair>(reinterpret_cast<PairMask>(x) & ~sign);
 }
 inline Pair smaller(Pair a, Pair b) { return a < b ? a : b; }
+inline Pair larger(Pair a, Pair b) { return a > b ? a : b; }
+/// The second of one pair and the first of the next.
+inline Pair between(Pair a, Pair b) { return Pair{a[1], b[0]}; }
+/// Numbers i and i + 1.
+template <std::size_t size>
+Pair pair_at(const std::array<double, size>& numbers, std::size_t i) {
+  Pair pair;
+  std::memcpy(&pair, numbers.data() + i, sizeof pair);
+  return pair;
+}
 /// x, or zero.
 inline Pair keep_if(bool condition, Pair x) {
   const PairMask mask = PairMask{} - static_cast<decltype(PairMask{}[0] + 0)>(condition);

@@ -1,6 +1,5 @@
 #include "certify/attempt.hpp"
 
-#include "carom/base/error.hpp"
 #include "certify/enclosure/line_enclosure.hpp"
 #include "certify/enclosure/point_enclosure.hpp"
 #include "certify/number/exact_value.hpp"

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "carom/base/elementary.hpp"
 #include "carom/certify/certified_periodic_orbit.hpp"
 #include "certify/flight/beside_curve.hpp"
 #include "certify/flight/larmor_flight.hpp"
@@ -22,16 +21,8 @@ using namespace certify;
 
 namespace {
 
-Ball cos_of(const Ball& a) {
-  Ball r;
-  arb_cos(r.raw(), a.raw(), Precision::bits());
-  return r;
-}
-Ball sin_of(const Ball& a) {
-  Ball r;
-  arb_sin(r.raw(), a.raw(), Precision::bits());
-  return r;
-}
+Ball cos_of(const Ball& a) { return made<Ball>(arb_cos, a.raw(), Precision::bits()); }
+Ball sin_of(const Ball& a) { return made<Ball>(arb_sin, a.raw(), Precision::bits()); }
 BallVector scaled(const Ball& s, const BallVector& v) { return {s * v.x, s * v.y}; }
 
 // A matrix of balls that frees itself.
@@ -46,9 +37,7 @@ class Matrix {
     arb_add(entry, entry, value.raw(), Precision::bits());
   }
   Ball at(std::size_t row, std::size_t column) const {
-    Ball r;
-    arb_set(r.raw(), arb_mat_entry(m_, row, column));
-    return r;
+    return made<Ball>(arb_set, arb_mat_entry(m_, row, column));
   }
   /// Nearly the inverse, as exact numbers. False: the matrix is singular, nearly.
   bool invert(const Matrix& of) {

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "carom/base/error.hpp"
 #include "carom/forces/hessian.hpp"
 #include "carom/integrators/make_stepper.hpp"
 #include "carom/integrators/scheme.hpp"

@@ -1,8 +1,9 @@
 #include "carom/events/decision_range.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "carom/events/medium.hpp"
@@ -14,16 +15,10 @@ namespace {
 
 using geometry::Vector;
 
-std::string shown(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", x);
-  return text;
-}
-
 std::string outside(const char* what, const char* where, double value, double low, double high) {
   if (value >= low && value <= high) return "";
-  return std::string(what) + where + " is " + shown(value) + ": flights are decided between " +
-         shown(low) + " and " + shown(high);
+  return fmt::format("{}{} is {:.3g}: flights are decided between {:.3g} and {:.3g}", what, where,
+                     value, low, high);
 }
 
 }  // namespace

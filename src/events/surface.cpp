@@ -1,6 +1,5 @@
 #include "carom/events/surface.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "carom/base/elementary.hpp"

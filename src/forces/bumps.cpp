@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 
+#include "base/inline.hpp"
 #include "carom/base/elementary.hpp"
 #include "forces/central_bounds.hpp"
 #include "forces/dual.hpp"
@@ -53,54 +54,22 @@ struct Batch {
   alignas(64) std::array<double, batch> dx, dy, r, e;
 };
 
-/// Adds the forces of all bumps of a kind, and returns their potential: of sums of units of each.
-double add_bumps(const auto& bumps, const Centers& centers, Vector x, double height, double slope,
-                 Vector& force) {
-  Lanes value{}, fx{}, fy{};
-  Batch b;
-  for (std::size_t from = 0; from < centers.x.size(); from += batch) {
-    const std::size_t n = std::min(batch, centers.x.size() - from);
-    bumps.distances(x, from, n, b);
-    elementary::exp(std::span(b.e.data(), n));
-    bumps.sum(from, n, b, value, fx, fy);
-  }
-  force.x += slope * total(fx);
-  force.y += slope * total(fy);
-  return height * total(value);
-}
+struct Fermi {
+  BumpShape shape;
+  double slope;  ///< 1 / softness
+  Fermi(double radius, double softness)
+      : shape{BumpShape::Kind::fermi, radius, softness, 1.0}, slope(1.0 / softness) {}
 
-class FermiBumps final : public Potential {
- public:
-  FermiBumps(double height, double radius, double softness, const std::vector<Vector>& centers)
-      : height_(height),
-        radius_(radius),
-        softness_(softness),
-        inverse_(1.0 / softness),
-        centers_(centers) {}
-
-  double add_force(const Particle&, Vector x, Vector& force) const override {
-    return add_bumps(*this, centers_, x, height_, height_ * inverse_, force);
+  double reach() const { return shape.radius + tail_exponent * shape.softness; }
+  ForceBound bound(double height, const central::Distances& d) const {
+    return central::fermi(height, shape.radius, shape.softness, d);
   }
-  ForceBound bound(const Particle&, const Neighbourhood& n) const override {
-    ForceBound sum;
-    for (std::size_t i = 0; i < centers_.count; ++i)
-      sum += central::fermi(height_, radius_, softness_,
-                            central::distances(n, {centers_.x[i], centers_.y[i]}));
-    return sum;
-  }
-  void add_hessian(const Particle&, Vector x, Hessian& hessian) const override {
-    for (std::size_t i = 0; i < centers_.count; ++i)
-      add_bump_hessian({BumpShape::Kind::fermi, radius_, softness_, 1.0}, height_,
-                       x - Vector{centers_.x[i], centers_.y[i]}, hessian);
-  }
-  double reach() const override { return radius_ + tail_exponent * softness_; }
-  double tail() const override { return tail_share * std::fabs(height_); }
-
-  CAROM_VECTORISED void distances(Vector x, std::size_t from, std::size_t n, Batch& b) const {
+  CAROM_VECTORISED void distances(const Centers& centers, Vector x, std::size_t from, std::size_t n,
+                                  Batch& b) const {
     for (std::size_t i = 0; i < n; i += lanes) {
       Lanes cx, cy;
-      load(cx, &centers_.x[from + i]);
-      load(cy, &centers_.y[from + i]);
+      load(cx, &centers.x[from + i]);
+      load(cy, &centers.y[from + i]);
       const Lanes dx = x.x - cx, dy = x.y - cy;
       store(dx, &b.dx[i]);
       store(dy, &b.dy[i]);
@@ -109,7 +78,7 @@ class FermiBumps final : public Potential {
     }
     double* __restrict r = b.r.data();
     double* __restrict e = b.e.data();
-    const double radius = radius_, inverse = inverse_;
+    const double radius = shape.radius, inverse = slope;
     for (std::size_t i = 0; i < n; ++i) {
       r[i] = std::sqrt(r[i]);
       // The exponential of a bump of 1e-130 stays finite, lest 0 times infinity be no number.
@@ -118,15 +87,15 @@ class FermiBumps final : public Potential {
     }
   }
   // With q = 1/(1 + e): V = q and -dV/dr = q^2 e / softness; one division gives q and 1/r.
-  CAROM_VECTORISED void sum(std::size_t from, std::size_t n, const Batch& b, Lanes& value,
-                            Lanes& fx, Lanes& fy) const {
+  CAROM_VECTORISED void sum(const Centers& centers, std::size_t from, std::size_t n, const Batch& b,
+                            Lanes& value, Lanes& fx, Lanes& fy) const {
     for (std::size_t i = 0; i < n; i += lanes) {
       Lanes e, r, dx, dy, weight;
       load(e, &b.e[i]);
       load(r, &b.r[i]);
       load(dx, &b.dx[i]);
       load(dy, &b.dy[i]);
-      load(weight, &centers_.weight[from + i]);
+      load(weight, &centers.weight[from + i]);
       const Lanes one = 1.0 + e;
       const Lanes inverse = 1.0 / (r * one);
       const Lanes q = r * inverse;
@@ -136,63 +105,83 @@ class FermiBumps final : public Potential {
       fy += f * dy;
     }
   }
-
- private:
-  double height_, radius_, softness_, inverse_;
-  Centers centers_;
 };
 
-class GaussianBumps final : public Potential {
- public:
-  GaussianBumps(double height, double width, const std::vector<Vector>& centers)
-      : height_(height), width_(width), inverse_square_(1.0 / (width * width)), centers_(centers) {}
+struct Gaussian {
+  BumpShape shape;
+  double slope;  ///< 1 / width^2
+  explicit Gaussian(double width)
+      : shape{BumpShape::Kind::gaussian, 0.0, 1.0, width}, slope(1.0 / (width * width)) {}
 
-  double add_force(const Particle&, Vector x, Vector& force) const override {
-    return add_bumps(*this, centers_, x, height_, height_ * inverse_square_, force);
+  double reach() const { return std::sqrt(2.0 * tail_exponent) * shape.width; }
+  ForceBound bound(double height, const central::Distances& d) const {
+    return {central::gaussian(height, shape.width, d)};
   }
-  ForceBound bound(const Particle&, const Neighbourhood& n) const override {
-    ForceBound sum;
-    for (std::size_t i = 0; i < centers_.count; ++i)
-      sum.force +=
-          central::gaussian(height_, width_, central::distances(n, {centers_.x[i], centers_.y[i]}));
-    return sum;
-  }
-  void add_hessian(const Particle&, Vector x, Hessian& hessian) const override {
-    for (std::size_t i = 0; i < centers_.count; ++i)
-      add_bump_hessian({BumpShape::Kind::gaussian, 0.0, 1.0, width_}, height_,
-                       x - Vector{centers_.x[i], centers_.y[i]}, hessian);
-  }
-  double reach() const override { return std::sqrt(2.0 * tail_exponent) * width_; }
-  double tail() const override { return tail_share * std::fabs(height_); }
-
-  CAROM_VECTORISED void distances(Vector x, std::size_t from, std::size_t n, Batch& b) const {
+  CAROM_VECTORISED void distances(const Centers& centers, Vector x, std::size_t from, std::size_t n,
+                                  Batch& b) const {
     for (std::size_t i = 0; i < n; i += lanes) {
       Lanes cx, cy;
-      load(cx, &centers_.x[from + i]);
-      load(cy, &centers_.y[from + i]);
+      load(cx, &centers.x[from + i]);
+      load(cy, &centers.y[from + i]);
       const Lanes dx = x.x - cx, dy = x.y - cy;
       store(dx, &b.dx[i]);
       store(dy, &b.dy[i]);
-      store((-0.5 * inverse_square_) * (dx * dx + dy * dy), &b.e[i]);
+      store((-0.5 * slope) * (dx * dx + dy * dy), &b.e[i]);
     }
   }
-  CAROM_VECTORISED void sum(std::size_t from, std::size_t n, const Batch& b, Lanes& value,
-                            Lanes& fx, Lanes& fy) const {
+  CAROM_VECTORISED void sum(const Centers& centers, std::size_t from, std::size_t n, const Batch& b,
+                            Lanes& value, Lanes& fx, Lanes& fy) const {
     for (std::size_t i = 0; i < n; i += lanes) {
       Lanes e, dx, dy, weight;
       load(e, &b.e[i]);
       load(dx, &b.dx[i]);
       load(dy, &b.dy[i]);
-      load(weight, &centers_.weight[from + i]);
+      load(weight, &centers.weight[from + i]);
       const Lanes g = weight * e;
       value += g;
       fx += g * dx;
       fy += g * dy;
     }
   }
+};
+
+template <class Kind>
+class Bumps final : public Potential {
+ public:
+  Bumps(double height, const Kind& kind, const std::vector<Vector>& centers)
+      : height_(height), kind_(kind), centers_(centers) {}
+
+  /// Adds the forces of all bumps, in sums of units of each.
+  double add_force(const Particle&, Vector x, Vector& force) const override {
+    Lanes value{}, fx{}, fy{};
+    Batch b;
+    for (std::size_t from = 0; from < centers_.x.size(); from += batch) {
+      const std::size_t n = std::min(batch, centers_.x.size() - from);
+      kind_.distances(centers_, x, from, n, b);
+      elementary::exp(std::span(b.e.data(), n));
+      kind_.sum(centers_, from, n, b, value, fx, fy);
+    }
+    const double slope = height_ * kind_.slope;
+    force.x += slope * total(fx);
+    force.y += slope * total(fy);
+    return height_ * total(value);
+  }
+  ForceBound bound(const Particle&, const Neighbourhood& n) const override {
+    ForceBound sum;
+    for (std::size_t i = 0; i < centers_.count; ++i)
+      sum += kind_.bound(height_, central::distances(n, {centers_.x[i], centers_.y[i]}));
+    return sum;
+  }
+  void add_hessian(const Particle&, Vector x, Hessian& hessian) const override {
+    for (std::size_t i = 0; i < centers_.count; ++i)
+      add_bump_hessian(kind_.shape, height_, x - Vector{centers_.x[i], centers_.y[i]}, hessian);
+  }
+  double reach() const override { return kind_.reach(); }
+  double tail() const override { return tail_share * std::fabs(height_); }
 
  private:
-  double height_, width_, inverse_square_;
+  double height_;
+  Kind kind_;
   Centers centers_;
 };
 
@@ -249,11 +238,11 @@ double gaussian_sum_reach(double width, const geometry::Lattice& lattice) {
 
 std::unique_ptr<const Potential> make_fermi_bumps(double height, double radius, double softness,
                                                   const std::vector<Vector>& centers) {
-  return std::make_unique<FermiBumps>(height, radius, softness, centers);
+  return std::make_unique<Bumps<Fermi>>(height, Fermi(radius, softness), centers);
 }
 std::unique_ptr<const Potential> make_gaussian_bumps(double height, double width,
                                                      const std::vector<Vector>& centers) {
-  return std::make_unique<GaussianBumps>(height, width, centers);
+  return std::make_unique<Bumps<Gaussian>>(height, Gaussian(width), centers);
 }
 
 }  // namespace carom::forces

@@ -1,7 +1,6 @@
 // Sums over many equal bumps: Fermi discs and Gaussians at given centres, or on a lattice.
 #pragma once
 
-#include "base/inline.hpp"
 #include "forces/bump_series.hpp"
 #include "forces/potential.hpp"
 

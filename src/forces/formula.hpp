@@ -9,41 +9,12 @@
 #include <tuple>
 #include <vector>
 
+#include "base/formula_words.hpp"
 #include "carom/forces/typed_expression.hpp"
 
 namespace carom::forces::formula {
 
-/// a, b: results of earlier operations; c: a number.
-enum class Operation : std::uint8_t {
-  number,        // c
-  negative,      // -a
-  sum,           // a + b
-  shifted,       // a + c
-  difference,    // a - b
-  number_minus,  // c - a
-  product,       // a b
-  multiple,      // c a
-  quotient,      // a / b
-  share,         // a / c
-  number_over,   // c / a
-  whole_power,   // a^n
-  half_power,    // a^n sqrt(a)
-  real_power,    // a^c
-  power,         // a^b
-  root,
-  exp,
-  log,
-  sin,
-  cos,
-  tan,
-  sinh,
-  cosh,
-  tanh,
-  abs,
-  atan2,
-  least,
-  greatest
-};
+using base::Operation;
 
 struct Instruction {
   double c = 0.0;
@@ -71,10 +42,6 @@ struct TypedExpression::Formula {
   std::size_t variables = 0;
   std::vector<forces::formula::Instruction> instructions;
   std::size_t result = 0;
-
-  double value(const double* at) const;
-  double value_and_gradient(const double* at, double* gradient) const;
-  double value_gradient_and_hessian(const double* at, double* gradient, double* hessian) const;
 };
 
 }  // namespace carom

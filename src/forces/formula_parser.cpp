@@ -23,14 +23,6 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-/// Both lists have the same order.
-constexpr Operation operation_of(base::FormulaFunction function) {
-  return static_cast<Operation>(static_cast<int>(Operation::root) + static_cast<int>(function));
-}
-static_assert(operation_of(base::FormulaFunction::root) == Operation::root);
-static_assert(operation_of(base::FormulaFunction::abs) == Operation::abs);
-static_assert(operation_of(base::FormulaFunction::greatest) == Operation::greatest);
-
 class Typed {
  public:
   using Value = Part;
@@ -85,7 +77,7 @@ class Typed {
   }
   static int arguments_of(const std::string& word) { return base::arguments_of_formula_word(word); }
   Part call(const std::string& word, const std::vector<Part>& of) {
-    const Operation operation = operation_of(base::formula_word(word)->function);
+    const Operation operation = base::formula_word(word)->operation;
     return checked([&] {
       return of.size() == 1 ? builder_.unary(operation, of[0])
                             : builder_.binary(operation, of[0], of[1]);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <type_traits>
 
-#include "carom/base/elementary.hpp"
 #include "carom/forces/typed_expression.hpp"
 #include "forces/bumps.hpp"
 #include "forces/central_bounds.hpp"

@@ -1,7 +1,8 @@
 #include "carom/integrators/plan.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 
 #include "carom/integrators/scheme.hpp"
 
@@ -14,24 +15,18 @@ Place key(const Place& section, const char* name) {
   return place;
 }
 
-std::string shown(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x);
-  return text;
-}
-
 }  // namespace
 
 void check_plan(const IntegratorPlan& plan, const Place& place) {
   if (plan.step != 0.0 && !(plan.step > 0.0 && std::isfinite(plan.step))) {
-    throw InputError(key(place, "step"), "a step of " + shown(plan.step) + " leads nowhere",
+    throw InputError(key(place, "step"), fmt::format("a step of {:.6g} leads nowhere", plan.step),
                      "a time > 0");
   }
   if (is_adaptive(plan.scheme)) {
     if (plan.tolerance != 0.0 && !(plan.tolerance >= least_tolerance && plan.tolerance < 1.0)) {
       throw InputError(key(place, "tolerance"),
-                       "a tolerance of " + shown(plan.tolerance) + " cannot be met",
-                       "a number from " + shown(least_tolerance) + " to below 1");
+                       fmt::format("a tolerance of {:.6g} cannot be met", plan.tolerance),
+                       fmt::format("a number from {:.6g} to below 1", least_tolerance));
     }
     return;
   }
@@ -61,12 +56,15 @@ std::string check_turn(const IntegratorPlan& plan, double largest_omega, bool wa
   if (walls && angle > 1.0) {
     throw InputError(
         key(place, "step"),
-        "the magnetic field turns the velocity by " + shown(angle) + " within a step",
-        "a step of at most " + shown(1.0 / std::fabs(largest_omega)) + " where there are walls");
+        fmt::format("the magnetic field turns the velocity by {:.6g} within a step", angle),
+        fmt::format("a step of at most {:.6g} where there are walls",
+                    1.0 / std::fabs(largest_omega)));
   }
   if (!(angle > 2.0)) return "";
-  return "the magnetic field turns the velocity by " + shown(angle) +
-         " within a step: stable, but hardly accurate; 2 is the most to advise";
+  return fmt::format(
+      "the magnetic field turns the velocity by {:.6g} within a step: stable, but hardly accurate; "
+      "2 is the most to advise",
+      angle);
 }
 
 }  // namespace carom

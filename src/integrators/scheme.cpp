@@ -1,7 +1,5 @@
 #include "carom/integrators/scheme.hpp"
 
-#include "integrators/stages.hpp"
-
 namespace carom {
 
 const Scheme& default_scheme() { return find_scheme("blanes-moan-srkn11b"); }

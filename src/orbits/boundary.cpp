@@ -5,8 +5,6 @@
 #include <numeric>
 #include <variant>
 
-#include "carom/geometry/hull.hpp"
-
 namespace carom::orbits {
 
 using geometry::Vector;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/name_among.hpp"
 #include "orbits/across.hpp"
 #include "orbits/boundary.hpp"
 #include "orbits/maslov.hpp"
@@ -14,17 +15,8 @@
 namespace carom {
 
 const char* name_of(Stability stability) {
-  switch (stability) {
-    case Stability::elliptic:
-      return "elliptic";
-    case Stability::hyperbolic:
-      return "hyperbolic";
-    case Stability::inverse_hyperbolic:
-      return "inverse hyperbolic";
-    case Stability::parabolic:
-      break;
-  }
-  return "parabolic";
+  return base::name_among<Stability::parabolic>(
+      {"elliptic", "hyperbolic", "inverse hyperbolic", "parabolic"}, stability);
 }
 
 OrbitWords words_of(const std::vector<PeriodicOrbit>& found, const Table& table) {

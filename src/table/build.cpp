@@ -26,7 +26,7 @@ using Builder = shapes::Shape (*)(const TableSpec&);
 const std::pair<const char*, Builder> builders[] = {
     {"rectangle", shapes::rectangle},
     {"polygon", shapes::polygon},
-    {"triangle", shapes::triangle},
+    {"triangle", shapes::polygon},
     {"regular", shapes::regular},
     {"circle", shapes::circle},
     {"ellipse", shapes::ellipse},
@@ -97,18 +97,22 @@ shapes::Shape shapes::written_shape(const TableSpec& spec) {
   return shape;
 }
 
-int Table::wall_index(const std::string& name) const {
-  for (std::size_t k = 0; k < walls.size(); ++k) {
-    if (walls[k].name == name) return static_cast<int>(k);
-  }
+namespace {
+
+int index_of(const auto& list, const std::string& name) {
+  for (std::size_t k = 0; k < list.size(); ++k)
+    if (list[k].name == name) return static_cast<int>(k);
   return -1;
 }
 
-namespace {
 bool is_mirror(const Wall& wall) {
   return !(wall.specularity < 1.0) && !(wall.roughness > 0.0) && !(wall.temperature > 0.0);
 }
+
 }  // namespace
+
+int Table::wall_index(const std::string& name) const { return index_of(walls, name); }
+int Table::hole_index(const std::string& name) const { return index_of(holes, name); }
 
 bool scatters(const Table& table) {
   return !std::all_of(table.walls.begin(), table.walls.end(), is_mirror) ||
@@ -157,13 +161,6 @@ std::vector<std::string> hole_names(const Table& table) {
   for (const Hole& hole : table.holes)
     if (names.empty() || names.back() != hole.name) names.push_back(hole.name);
   return names;
-}
-
-int Table::hole_index(const std::string& name) const {
-  for (std::size_t k = 0; k < holes.size(); ++k) {
-    if (holes[k].name == name) return static_cast<int>(k);
-  }
-  return -1;
 }
 
 Table build_table(const TableSpec& spec) {

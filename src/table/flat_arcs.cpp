@@ -1,8 +1,9 @@
 // Walls on which a hit would be misplaced by more than a small part of how far an arc is bent, or
 // of a radius or semi-axis.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "carom/geometry/curve_frame.hpp"
 #include "table/flat_arcs.hpp"
@@ -44,12 +45,6 @@ double share_of_landing(const CurveFrame& frame, const FlightSizes& sizes) {
   return u * (10.0 * frame.major + 7.0 * sizes.farthest + 3.0 * sizes.longest) / frame.minor;
 }
 
-std::string shown(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", x);
-  return text;
-}
-
 }  // namespace
 
 }  // namespace shapes
@@ -60,15 +55,14 @@ Misplaced misplaced(const Wall& wall, const FlightSizes& sizes) {
     return {};
   const geometry::CurveFrame frame = geometry::frame_of(wall.curve);
   if (const double share = shapes::share_of_landing(frame, sizes); share > shapes::largest_share) {
-    const std::string share_text = shapes::shown(share);
     return {
         "'" + wall.name + "' is too " +
-            (frame.circular
-                 ? "small: with a radius of " + shapes::shown(frame.minor) +
-                       ", hits would be misplaced by up to " + share_text + " of it"
-                 : "thin: with semi-axes of " + shapes::shown(frame.major) + " and " +
-                       shapes::shown(frame.minor) + ", hits would be misplaced by up to " +
-                       share_text + " of the smaller one"),
+            (frame.circular ? fmt::format("small: with a radius of {:.3g}, hits would be misplaced "
+                                          "by up to {:.3g} of it",
+                                          frame.minor, share)
+                            : fmt::format("thin: with semi-axes of {:.3g} and {:.3g}, hits would "
+                                          "be misplaced by up to {:.3g} of the smaller one",
+                                          frame.major, frame.minor, share)),
         "a share of 2^-16 at most: no radius or semi-axis below some 3e-10 of the table's size, "
         "of its distance from the origin and of the other semi-axis"};
   }
@@ -83,10 +77,10 @@ Misplaced misplaced(const Wall& wall, const FlightSizes& sizes) {
   if (found.share <= shapes::largest_share) return {};
   const geometry::Vector chord =
       geometry::end_point(wall.curve) - geometry::start_point(wall.curve);
-  return {"the arc '" + wall.name + "' is too flat: with a " +
-              (circular ? "radius of " : "semi-axis of ") + shapes::shown(frame.major) +
-              " over a chord of " + shapes::shown(std::sqrt(dot(chord, chord))) +
-              ", hits would lie off it by up to " + shapes::shown(found.share) + " of its sagitta",
+  return {fmt::format("the arc '{}' is too flat: with a {} of {:.3g} over a chord of {:.3g}, hits "
+                      "would lie off it by up to {:.3g} of its sagitta",
+                      wall.name, circular ? "radius" : "semi-axis", frame.major,
+                      std::sqrt(dot(chord, chord)), found.share),
           "a straight line, or an arc bent enough for a share of 2^-16: a radius up to some 30000 "
           "chords"};
 }

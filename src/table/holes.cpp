@@ -1,6 +1,5 @@
 // Walls by their names, and holes: arc lengths along walls become parameters of their curves.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 #include <string_view>

@@ -1,8 +1,9 @@
 // The closed curve on which a formula of x and y vanishes, as Bézier curves.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,12 +24,6 @@ using geometry::Box;
 using geometry::Vector;
 
 double length_of(Vector v) { return std::sqrt(dot(v, v)); }
-
-std::string shown_place(Vector v) {
-  char text[64];
-  std::snprintf(text, sizeof text, "(%.4g, %.4g)", v.x, v.y);
-  return text;
-}
 
 /// A place on the curve, with the domain on the left: its curvature is that of the way along it.
 struct Spot {
@@ -79,7 +74,8 @@ class ImplicitCurve {
  private:
   [[noreturn]] void refuse(const std::string& problem, Vector at,
                            const char* expected = "a smooth closed curve around 'inside'") const {
-    throw InputError(place_, problem + " near " + shown_place(at), expected);
+    throw InputError(place_, fmt::format("{} near ({:.4g}, {:.4g})", problem, at.x, at.y),
+                     expected);
   }
 
   /// The first wall on the way from `inside` along +x: intervals in which the equation surely has

@@ -6,7 +6,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom/geometry/prepared_curve.hpp"
-#include "carom/geometry/region.hpp"
+#include "table/loops.hpp"
 
 namespace carom::table {
 
@@ -75,20 +75,7 @@ Curve moved_wall(const Wall& wall, const Table& table, double radius) {
 }
 
 void check(const Table& table) {
-  std::vector<geometry::Loop> loops;
-  std::vector<bool> seen(table.walls.size(), false);
-  for (std::size_t first = 0; first < table.walls.size(); ++first) {
-    geometry::Loop loop;
-    for (std::size_t i = first; !seen[i]; i = static_cast<std::size_t>(table.walls[i].next)) {
-      seen[i] = true;
-      loop.push_back({table.walls[i].name, table.walls[i].curve});
-    }
-    if (!loop.empty()) loops.push_back(std::move(loop));
-  }
-  const auto kind = table.extent == Extent::bounded      ? geometry::RegionKind::bounded
-                    : table.extent == Extent::open_plane ? geometry::RegionKind::open
-                                                         : geometry::RegionKind::lattice;
-  const auto faults = geometry::check_region(loops, kind, table.lattice, 1);
+  const auto faults = faults_of(table, 1);
   if (!faults.empty()) throw refused("seen by the centre of a disc, " + faults.front().sentence);
 }
 

@@ -1,6 +1,7 @@
 // Discs: Sinai's billiard, Lorentz gases, discs in the open plane, and [lattice].
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <stdexcept>
 
 #include "carom/geometry/hull.hpp"
@@ -13,11 +14,7 @@ namespace {
 
 using geometry::Vector;
 
-std::string shown_vector(Vector v) {
-  char text[64];
-  std::snprintf(text, sizeof text, "[%.9g, %.9g]", v.x, v.y);
-  return text;
-}
+std::string shown_vector(Vector v) { return fmt::format("[{:.9g}, {:.9g}]", v.x, v.y); }
 
 // Cells are counted along the vectors as written. Where these are far longer than the lattice
 // needs, the next cell has large numbers, and displacements are differences of much larger ones.

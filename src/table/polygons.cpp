@@ -35,19 +35,6 @@ std::vector<WrittenPoint> corners_of(const TableSpec& spec) {
   return corners;
 }
 
-// Counter-clockwise: the sides of a clockwise list keep their names and run backwards.
-Shape turned_polygon(const TableSpec& spec, const std::vector<WrittenPoint>& corners) {
-  std::vector<Vector> rounded;
-  for (const ExactPoint& p : spec.points.at("points")) rounded.push_back(point(p));
-  const std::vector<std::string> names = numbered("side", corners.size());
-  Chain chain;
-  for (const OrderedSide& s : ordered_sides(rounded, false))
-    chain.push_back({names[s.side], WrittenSegment{corners[s.from], corners[s.to]}});
-  Shape shape;
-  shape.loops.push_back(std::move(chain));
-  return shape;
-}
-
 }  // namespace
 
 void add_polygon(Shape& shape, const std::vector<std::string>& names,
@@ -71,24 +58,24 @@ Shape rectangle(const TableSpec& spec) {
 
 Shape polygon(const TableSpec& spec) {
   const std::vector<WrittenPoint> corners = corners_of(spec);
-  if (corners.size() < 3) {
+  const bool triangle = spec.shape == "triangle";
+  if (corners.size() < 3 || (triangle && corners.size() > 3))
     throw InputError(spec.points.at("points").empty() ? place_of(spec, "points")
                                                       : spec.points.at("points").front().x.place(),
-                     "a polygon has at least three corners, not " + std::to_string(corners.size()),
-                     "three points or more");
-  }
-  return turned_polygon(spec, corners);
-}
-
-Shape triangle(const TableSpec& spec) {
-  const std::vector<WrittenPoint> corners = corners_of(spec);
-  if (corners.size() != 3) {
-    throw InputError(spec.points.at("points").empty() ? place_of(spec, "points")
-                                                      : spec.points.at("points").front().x.place(),
-                     "a triangle has three corners, not " + std::to_string(corners.size()),
-                     "three points");
-  }
-  return turned_polygon(spec, corners);
+                     (triangle ? "a triangle has three corners, not "
+                               : "a polygon has at least three corners, not ") +
+                         std::to_string(corners.size()),
+                     triangle ? "three points" : "three points or more");
+  // Counter-clockwise: the sides of a clockwise list keep their names and run backwards.
+  std::vector<Vector> rounded;
+  for (const ExactPoint& p : spec.points.at("points")) rounded.push_back(point(p));
+  const std::vector<std::string> names = numbered("side", corners.size());
+  Chain chain;
+  for (const OrderedSide& s : ordered_sides(rounded, false))
+    chain.push_back({names[s.side], WrittenSegment{corners[s.from], corners[s.to]}});
+  Shape shape;
+  shape.loops.push_back(std::move(chain));
+  return shape;
 }
 
 Shape regular(const TableSpec& spec) {

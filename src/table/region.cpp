@@ -1,45 +1,50 @@
 // The exact check that the walls bound a region.
-#include "carom/geometry/region.hpp"
+#include "table/loops.hpp"
 
 #include <algorithm>
 #include <string>
 #include <tuple>
 #include <utility>
 
+#include "base/index.hpp"
 #include "table/obstacles.hpp"
 #include "table/shapes.hpp"
 
-namespace carom::table::shapes {
-namespace {
+namespace carom {
 
-std::vector<geometry::Loop> loops_of(const Table& table) {
-  std::vector<geometry::Loop> loops;
+std::vector<std::vector<int>> table::wall_loops(const Table& table) {
+  std::vector<std::vector<int>> loops;
   std::vector<bool> seen(table.walls.size(), false);
   for (std::size_t first = 0; first < table.walls.size(); ++first) {
-    if (seen[first]) continue;
-    geometry::Loop loop;
-    for (std::size_t at = first; !seen[at]; at = static_cast<std::size_t>(table.walls[at].next)) {
-      seen[at] = true;
-      loop.push_back({table.walls[at].name, table.walls[at].curve});
+    std::vector<int> loop;
+    for (std::size_t k = first; !seen[k]; k = base::at(table.walls[k].next)) {
+      seen[k] = true;
+      loop.push_back(static_cast<int>(k));
     }
-    loops.push_back(std::move(loop));
+    if (!loop.empty()) loops.push_back(std::move(loop));
   }
   return loops;
 }
 
-geometry::RegionKind kind_of(Extent extent) {
-  switch (extent) {
-    case Extent::bounded:
-      return geometry::RegionKind::bounded;
-    case Extent::open_plane:
-      return geometry::RegionKind::open;
-    case Extent::lattice:
-      break;
-  }
-  return geometry::RegionKind::lattice;
+geometry::Loop table::curves_of(const Table& table, const std::vector<int>& loop) {
+  geometry::Loop curves;
+  for (const int k : loop)
+    curves.push_back({table.walls[base::at(k)].name, table.walls[base::at(k)].curve});
+  return curves;
 }
 
-}  // namespace
+std::vector<geometry::RegionFault> table::faults_of(const Table& table, std::size_t limit) {
+  std::vector<geometry::Loop> loops;
+  for (const std::vector<int>& loop : wall_loops(table)) loops.push_back(curves_of(table, loop));
+  const auto kind = table.extent == Extent::bounded      ? geometry::RegionKind::bounded
+                    : table.extent == Extent::open_plane ? geometry::RegionKind::open
+                                                         : geometry::RegionKind::lattice;
+  return geometry::check_region(loops, kind, table.lattice, limit);
+}
+
+}  // namespace carom
+
+namespace carom::table::shapes {
 
 namespace {
 
@@ -85,6 +90,8 @@ Place place_of_wall(const TableSpec& spec, const Table& table, std::size_t wall)
 
 namespace {
 
+constexpr std::size_t most_faults = 3;
+
 /// Of faults that are some.
 [[noreturn]] void refuse(const std::vector<geometry::RegionFault>& faults, const Table& table,
                          const std::function<Place(const std::string&)>& place_of) {
@@ -113,14 +120,10 @@ namespace {
       "closed loops that do not cross, outer ones counter-clockwise, obstacles clockwise");
 }
 
-std::vector<geometry::RegionFault> faults_of(const Table& table) {
-  return geometry::check_region(loops_of(table), kind_of(table.extent), table.lattice, 3);
-}
-
 }  // namespace
 
 bool check_region(const TableSpec& spec, const Table& table) {
-  const auto faults = faults_of(table);
+  const auto faults = faults_of(table, most_faults);
   if (faults.empty()) return false;
   const auto place_of = [&](const std::string& name) {
     const int wall = table.wall_index(name);
@@ -134,7 +137,8 @@ bool check_region(const TableSpec& spec, const Table& table) {
 }
 
 void check_part(const Table& part, const std::function<Place(const std::string&)>& place_of) {
-  if (const auto faults = faults_of(part); !faults.empty()) refuse(faults, part, place_of);
+  if (const auto faults = faults_of(part, most_faults); !faults.empty())
+    refuse(faults, part, place_of);
 }
 
 }  // namespace carom::table::shapes

@@ -7,7 +7,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -84,7 +83,6 @@ std::vector<std::string> numbered(const std::string& stem, std::size_t count);
 
 Shape rectangle(const TableSpec&);
 Shape polygon(const TableSpec&);
-Shape triangle(const TableSpec&);
 Shape regular(const TableSpec&);
 
 Shape circle(const TableSpec&);

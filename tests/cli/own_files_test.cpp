@@ -142,6 +142,22 @@ TEST(OwnFiles, NotesInTheFolderStay) {
   EXPECT_EQ(shell.read("q.h5.part/notes"), "notes\n");
 }
 
+// The archives of other commands, too: with --force an ensemble that was interrupted gives way.
+TEST(OwnFiles, ForceReplacesACheckpoint) {
+  const Shell shell;
+  leave_a_checkpoint(shell, "--per-trajectory");
+  ASSERT_EQ(shell("mv q.h5.part kept").status, 0);
+  for (const std::string writer :
+       {"compare henon-heiles --t-max 4 --schemes velocity-verlet", "orbit stadium --hits 2",
+        "relax wigner --starts 2", "section stadium --orbits 2 --points 3", "run stadium --t-max 3",
+        "run stadium --precision certified --collisions 5"}) {
+    const Outcome o = shell("cp -r kept q.h5.part; $carom " + writer + " --quiet --force -o q.h5");
+    EXPECT_EQ(o.status, 0) << writer << "\n" << o.err;
+    EXPECT_EQ(shell.files(), (Names{"kept", "q.h5"})) << writer;
+    shell("rm -rf q.h5*");
+  }
+}
+
 // Nothing is written into the folder of another archive by its name.
 TEST(OwnFiles, TheFolderIsNoPlaceForArchives) {
   const Shell shell;

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <memory>
 
-#include "carom/events/decisions.hpp"
 #include "carom/events/observer.hpp"
 #include "carom/table/table.hpp"
 

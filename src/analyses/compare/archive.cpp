@@ -5,10 +5,7 @@
 #include <limits>
 
 #include "analyses/compare/columns.hpp"
-#include "carom/base/error.hpp"
-#include "files/checkpoint/work_folder.hpp"
 #include "files/hdf5/archive_file.hpp"
-#include "files/hdf5/checksums.hpp"
 #include "files/hdf5/fields.hpp"
 
 namespace carom {
@@ -117,32 +114,21 @@ void write_result(const ArchiveFile& file, const Comparison& result, const std::
 
 void write_comparison(const std::string& name, const LoadedSystem& loaded, const Provenance& origin,
                       const Comparison& result, bool force, ArchiveLock lock) {
-  if (!lock) lock = lock_archive(name);
-  refuse_existing(name, force);
-  hdf5::silence();
-  ArchiveFile file = ArchiveFile::create(aside_of(name), name);
-  file.write_head(kind, loaded, origin);
+  ArchiveFile file = ArchiveFile::begin(kind, name, loaded, origin, force, lock);
   write_result(file, result, name);
   file.write_seconds({result.seconds, result.cpu_seconds});
-  file.set_status(result.complete ? "completed" : "interrupted", result.complete);
-  file.keep_as(name);
+  file.finish(result.complete ? "completed" : "interrupted", result.complete);
 }
 
 StoredComparison read_comparison(const std::string& name) {
-  hdf5::silence();
-  const Handle file = open_archive(name, "the file is not an archive, or it is still being written",
-                                   "an archive of carom");
-  if (hdf5::read_string_attribute(file.get(), "kind", name) != kind)
-    throw InputError(Place{name, 0, 0, ""}, "the archive holds no comparison of integrators",
-                     "an archive written by carom compare");
-  hdf5::verify(file.get(), name);
+  const Handle file = open_kind(name, kind, "the archive holds no comparison of integrators",
+                                "an archive written by carom compare");
   StoredComparison stored;
   Comparison& result = stored.result;
-  const auto opened = [&](const char* group) {
-    return Handle(H5Gopen2(file.get(), group, H5P_DEFAULT), H5Gclose);
-  };
+  read_head(file.get(), name, stored, result);
+  const auto opened = [&](const char* group) { return open_group(file.get(), group, name); };
   const Handle all = opened("comparison"), list = opened("schemes"), group = opened("runs"),
-               end = opened("end"), provenance = opened("provenance");
+               end = opened("end");
   read_numbers(all.get(), result, name);
   result.end = read_all_rows<ComparedEnd>(end.get(), name);
   result.reference = hdf5::read_string_attribute(all.get(), "reference", name);
@@ -163,13 +149,6 @@ StoredComparison read_comparison(const std::string& name) {
     result.schemes.at(static_cast<std::size_t>(row.scheme)).runs.push_back(row);
   }
   name_best_schemes(result);
-  result.complete = hdf5::read_attribute<std::int64_t>(file.get(), "complete", name) != 0;
-  const Seconds seconds = ArchiveFile::read_seconds(provenance.get(), name);
-  result.seconds = seconds.wall;
-  result.cpu_seconds = seconds.cpu;
-  stored.system_toml = hdf5::read_text(file.get(), "system", name);
-  stored.system_name = hdf5::read_string_attribute(provenance.get(), "system", name);
-  stored.engine = hdf5::read_string_attribute(provenance.get(), "engine", name);
   return stored;
 }
 

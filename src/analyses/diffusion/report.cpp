@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "analyses/diffusion/describe.hpp"
+#include "base/name_among.hpp"
 #include "carom/engines/engine.hpp"
 #include "cli/common.hpp"
 #include "cli/loading.hpp"
@@ -24,19 +25,8 @@ using Kind = Horizon::Kind;
 constexpr std::size_t corridors_in_text = 6, corridors_in_json = 1000;
 
 const char* name_of(Kind kind) {
-  switch (kind) {
-    case Kind::finite:
-      return "finite";
-    case Kind::infinite:
-      return "infinite";
-    case Kind::bounded:
-      return "bounded";
-    case Kind::open_plane:
-      return "open plane";
-    case Kind::unknown:
-      break;
-  }
-  return "unknown";
+  return base::name_among<Kind::unknown>({"finite", "infinite", "bounded", "open plane", "unknown"},
+                                         kind);
 }
 
 std::string moments_table(const std::vector<MomentPoint>& points, const EnsembleContext& context) {

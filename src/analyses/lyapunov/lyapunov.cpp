@@ -7,7 +7,6 @@
 #include "analyses/lyapunov/lyapunov_listener.hpp"
 #include "base/counted.hpp"
 #include "carom/base/stopwatch.hpp"
-#include "carom/engines/trajectories.hpp"
 #include "carom/geometry/curve_frame.hpp"
 #include "carom/starts/injection.hpp"
 #include "carom/starts/sampler.hpp"

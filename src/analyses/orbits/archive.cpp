@@ -4,10 +4,7 @@
 #include <vector>
 
 #include "carom/base/error.hpp"
-#include "files/checkpoint/ensemble_columns.hpp"
-#include "files/checkpoint/work_folder.hpp"
 #include "files/hdf5/archive_file.hpp"
-#include "files/hdf5/checksums.hpp"
 #include "files/hdf5/fields.hpp"
 
 namespace carom {
@@ -123,9 +120,6 @@ ProofsOfOrbits read_proofs(hid_t file, const std::string& name) {
   return proofs;
 }
 
-const char* const names_of_stability[] = {"elliptic", "hyperbolic", "inverse hyperbolic",
-                                          "parabolic"};
-
 }  // namespace
 
 template <>
@@ -159,21 +153,17 @@ ProofOfOrbit proof_of(const CertifiedPeriodicOrbit& orbit, int digits) {
 void write_orbits(const std::string& name, const LoadedSystem& loaded, const Provenance& origin,
                   const OrbitSearchResult& found, const ProofsOfOrbits& proofs,
                   std::uint64_t most_hits, bool force, ArchiveLock lock) {
-  if (!lock) lock = lock_archive(name);
-  refuse_existing(name, force);
-  hdf5::silence();
-  ArchiveFile file = ArchiveFile::create(aside_of(name), name);
-  file.write_head(orbit_archive_kind, loaded, origin);
+  ArchiveFile file = ArchiveFile::begin(orbit_archive_kind, name, loaded, origin, force, lock);
   const std::vector<PeriodicOrbit>& orbits = found.orbits;
   {
     const Handle group = file.group("orbits", "Periodic orbits, by number of hits and length");
     const hid_t to = group.get();
     write_columns(to, std::span(orbits), name);
     write_columns(to, std::span<const OrbitExtra>(extras_of(orbits)), name);
-    hdf5::write_attribute(
-        to, "stabilities",
-        std::vector<std::string>(std::begin(names_of_stability), std::end(names_of_stability)),
-        name);
+    std::vector<std::string> stabilities;
+    for (int k = 0; k <= static_cast<int>(Stability::parabolic); ++k)
+      stabilities.push_back(name_of(static_cast<Stability>(k)));
+    hdf5::write_attribute(to, "stabilities", stabilities, name);
     hdf5::write_attribute(to, "most_hits", most_hits, name);
     hdf5::write_attribute(to, "zeta", std::int64_t{found.cycles.has_value()}, name);
     each_field<Fields<OrbitSearchResult>>(
@@ -191,29 +181,20 @@ void write_orbits(const std::string& name, const LoadedSystem& loaded, const Pro
   }
   if (!proofs.orbits.empty()) write_proofs(file, proofs);
   file.write_seconds({found.seconds, found.cpu_seconds});
-  file.set_status(found.complete ? "completed" : "interrupted", found.complete);
-  file.keep_as(name);
-  give_up_checkpoint(name);
+  file.finish(found.complete ? "completed" : "interrupted", found.complete);
 }
 
 StoredOrbits read_orbits(const std::string& name) {
-  hdf5::silence();
-  const Handle file = open_archive(name, "the file is not an archive, or it is still being written",
-                                   "an archive of carom");
-  if (hdf5::read_string_attribute(file.get(), "kind", name) != orbit_archive_kind)
-    throw InputError(Place{name, 0, 0, ""}, "the archive holds no orbits",
-                     "an archive written by carom orbit");
-  hdf5::verify(file.get(), name);
-  const auto opened = [&](const char* group) {
-    return hdf5::checked(H5Gopen2(file.get(), group, H5P_DEFAULT), H5Gclose, name);
-  };
+  const Handle file = open_kind(name, orbit_archive_kind, "the archive holds no orbits",
+                                "an archive written by carom orbit");
   StoredOrbits stored;
+  read_head(file.get(), name, stored, stored.result);
   std::vector<PeriodicOrbit>& orbits = stored.result.orbits;
-  const Handle group = opened("orbits");
+  const Handle group = open_group(file.get(), "orbits", name);
   const hid_t from = group.get();
   orbits = read_all_rows<PeriodicOrbit>(from, name);
   const auto extras = read_all_rows<OrbitExtra>(from, name);
-  const Handle hit_group = opened("orbit_hits");
+  const Handle hit_group = open_group(file.get(), "orbit_hits", name);
   const auto hits = read_all_rows<OrbitHit>(hit_group.get(), name);
   const auto hit_extras = read_all_rows<HitExtra>(hit_group.get(), name);
   std::size_t row = 0;
@@ -241,16 +222,6 @@ StoredOrbits read_orbits(const std::string& name) {
   if (hdf5::read_attribute<std::int64_t>(from, "zeta", name) != 0)
     stored.result.cycles = expand_cycles(orbits, stored.most_hits);
   stored.proofs = read_proofs(file.get(), name);
-  stored.result.complete = hdf5::read_attribute<std::int64_t>(file.get(), "complete", name) != 0;
-  stored.status = stored.result.complete ? "completed" : "interrupted";
-  stored.system_toml = hdf5::read_text(file.get(), "system", name);
-  const Handle provenance = opened("provenance");
-  stored.system_name = hdf5::read_string_attribute(provenance.get(), "system", name);
-  const Seconds seconds = ArchiveFile::read_seconds(provenance.get(), name);
-  stored.result.seconds = seconds.wall;
-  stored.result.cpu_seconds = seconds.cpu;
-  stored.result.threads =
-      static_cast<int>(hdf5::read_attribute<std::int64_t>(provenance.get(), "threads", name));
   return stored;
 }
 

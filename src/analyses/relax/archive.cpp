@@ -3,11 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "carom/base/error.hpp"
-#include "files/checkpoint/ensemble_columns.hpp"
-#include "files/checkpoint/work_folder.hpp"
 #include "files/hdf5/archive_file.hpp"
-#include "files/hdf5/checksums.hpp"
 #include "files/hdf5/fields.hpp"
 
 namespace carom {
@@ -49,10 +45,7 @@ struct Fields<ModeRow> {
 void write_equilibria(const std::string& target, const LoadedSystem& loaded,
                       const Provenance& origin, const RelaxResult& result, bool force,
                       ArchiveLock lock) {
-  if (!lock) lock = lock_archive(target);
-  refuse_existing(target, force);
-  ArchiveFile file = ArchiveFile::create(aside_of(target), target);
-  file.write_head(relax_archive_kind, loaded, origin);
+  ArchiveFile file = ArchiveFile::begin(relax_archive_kind, target, loaded, origin, force, lock);
   {
     const Handle group = file.group("equilibria", "Where all forces vanish, by rising energy");
     write_numbers(group.get(), result, target);
@@ -74,29 +67,15 @@ void write_equilibria(const std::string& target, const LoadedSystem& loaded,
     hdf5::change_attribute(provenance.get(), "threads", std::int64_t{result.threads}, target);
   }
   file.write_seconds({result.seconds, result.cpu_seconds});
-  file.set_status(result.complete ? "completed" : "interrupted", result.complete);
-  file.keep_as(target);
-  give_up_checkpoint(target);
+  file.finish(result.complete ? "completed" : "interrupted", result.complete);
 }
 
 StoredEquilibria read_equilibria(const std::string& name) {
-  const Handle file =
-      open_archive(name, "the file is not an archive", "an archive written by carom relax -o");
-  if (hdf5::read_string_attribute(file.get(), "kind", name) != relax_archive_kind)
-    throw InputError(Place{name, 0, 0, ""}, "the archive holds no equilibria",
-                     "an archive written by carom relax -o");
-  hdf5::verify(file.get(), name);
+  const Handle file = open_kind(name, relax_archive_kind, "the archive holds no equilibria",
+                                "an archive written by carom relax -o");
   StoredEquilibria stored;
-  stored.system_toml = hdf5::read_text(file.get(), "system", name);
-  const Handle provenance = open_group(file.get(), "provenance", name);
-  stored.system_name = hdf5::read_string_attribute(provenance.get(), "system", name);
   RelaxResult& result = stored.result;
-  result.complete = hdf5::read_attribute<std::int64_t>(file.get(), "complete", name) != 0;
-  result.threads =
-      static_cast<int>(hdf5::read_attribute<std::int64_t>(provenance.get(), "threads", name));
-  const Seconds seconds = ArchiveFile::read_seconds(provenance.get(), name);
-  result.seconds = seconds.wall;
-  result.cpu_seconds = seconds.cpu;
+  read_head(file.get(), name, stored, result);
   const Handle group = open_group(file.get(), "equilibria", name);
   read_numbers(group.get(), result, name);
   result.equilibria = read_all_rows<Equilibrium>(group.get(), name);

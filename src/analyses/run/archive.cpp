@@ -11,7 +11,6 @@
 #include "files/checkpoint/ensemble_columns.hpp"
 #include "files/checkpoint/work_folder.hpp"
 #include "files/hdf5/archive_file.hpp"
-#include "files/hdf5/checksums.hpp"
 #include "files/hdf5/fields.hpp"
 
 namespace carom {
@@ -34,9 +33,8 @@ double expected_samples(const System& system) {
 
 class RunArchive::Implementation {
  public:
-  Implementation(ArchiveFile opened, std::string final_path, const LoadedSystem& loaded)
+  Implementation(ArchiveFile opened, const LoadedSystem& loaded)
       : file(std::move(opened)),
-        target(std::move(final_path)),
         table(loaded.system.table),
         hits_now(*table),
         hits(file.name(), expected_hits(loaded.system)),
@@ -55,7 +53,6 @@ class RunArchive::Implementation {
 
   ArchiveLock lock;  // first: it lets go last
   ArchiveFile file;
-  std::string target;
   std::shared_ptr<const Table> table;
   HitRows hits_now;
   Rows<HitRow> hits;
@@ -150,7 +147,7 @@ std::unique_ptr<RunArchive> RunArchive::create(const std::string& file, const Lo
   hdf5::silence();
   if (!lock) lock = lock_archive(file);
   refuse_existing(file, force);
-  auto made = std::make_unique<Implementation>(ArchiveFile::create(file, file), file, loaded);
+  auto made = std::make_unique<Implementation>(ArchiveFile::create(file, file), loaded);
   made->lock = std::move(lock);
   made->create(loaded, origin, trajectory);
   made->file.start_swmr();
@@ -171,7 +168,7 @@ std::unique_ptr<RunArchive> RunArchive::extend(const std::string& source, const 
     throw InputError("cannot write '" + copy + "': " + reason);
   }
   try {
-    auto made = std::make_unique<Implementation>(ArchiveFile::open(copy, target), target, loaded);
+    auto made = std::make_unique<Implementation>(ArchiveFile::open(copy, target), loaded);
     made->lock = std::move(lock);
     made->reopen(loaded, origin);
     made->file.start_swmr();
@@ -246,9 +243,7 @@ void RunArchive::finish(const SingleRunResult& result, const std::string& status
     write_trust(a.file.open_group("trust").get(), result.particles, a.file.name());
   a.file.write_seconds({result.seconds, result.cpu_seconds});
   a.file.add_decisions(result.decisions);
-  a.file.set_status(status, !result.interrupted);
-  a.file.keep_as(a.target);
-  give_up_checkpoint(a.target);
+  a.file.finish(status, !result.interrupted);
   a.lock.reset();
 }
 

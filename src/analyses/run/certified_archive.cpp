@@ -5,11 +5,9 @@
 #include <utility>
 
 #include "carom/base/error.hpp"
-#include "files/checkpoint/ensemble_columns.hpp"
-#include "files/checkpoint/work_folder.hpp"
 #include "files/hdf5/archive_file.hpp"
-#include "files/hdf5/checksums.hpp"
 #include "files/hdf5/columns.hpp"
+#include "files/hdf5/fields.hpp"
 
 namespace carom {
 
@@ -106,12 +104,12 @@ class TextColumn {
 class CertifiedArchive::Implementation {
  public:
   Implementation(const std::string& path, const LoadedSystem& loaded, const Provenance& origin,
-                 const CertifiedTask& task)
-      : target(path),
+                 const CertifiedTask& task, bool force, ArchiveLock held)
+      : lock(std::move(held)),
+        target(path),
         digits(task.digits),
-        file(ArchiveFile::create(aside_of(path), path)),
+        file(ArchiveFile::begin(certified_archive_kind, path, loaded, origin, force, lock)),
         rows(path) {
-    file.write_head(certified_archive_kind, loaded, origin);
     for (const Wall& w : loaded.system.table->walls) walls.push_back(w.name);
     for (const Hole& h : loaded.system.table->holes) holes.push_back(h.name);
     collisions = file.group("collisions", "Reflections in order of time: the states after them");
@@ -149,7 +147,7 @@ class CertifiedArchive::Implementation {
     }
   }
 
-  ArchiveLock lock;
+  ArchiveLock lock;  // first: it lets go last
   std::string target;
   int digits;
   ArchiveFile file;
@@ -161,12 +159,9 @@ class CertifiedArchive::Implementation {
 
 CertifiedArchive::CertifiedArchive(const std::string& file, const LoadedSystem& loaded,
                                    const Provenance& origin, const CertifiedTask& task, bool force,
-                                   ArchiveLock lock) {
-  if (!lock) lock = lock_archive(file);
-  refuse_existing(file, force);
-  implementation_ = std::make_unique<Implementation>(file, loaded, origin, task);
-  implementation_->lock = std::move(lock);
-}
+                                   ArchiveLock lock)
+    : implementation_(
+          std::make_unique<Implementation>(file, loaded, origin, task, force, std::move(lock))) {}
 CertifiedArchive::~CertifiedArchive() = default;
 
 void CertifiedArchive::hit(const CertifiedHit& hit) {
@@ -197,9 +192,7 @@ void CertifiedArchive::finish(const CertifiedEnd& end, const CertifiedEffort& ef
     if (!end.ties.empty()) hdf5::write_attribute(to, "ties", end.ties, a.target);
     if (!a.holes.empty()) hdf5::write_attribute(to, "holes", a.holes, a.target);
   }
-  a.file.set_status(status, complete);
-  a.file.keep_as(a.target);
-  give_up_checkpoint(a.target);
+  a.file.finish(status, complete);
   a.lock.reset();
 }
 
@@ -269,17 +262,10 @@ std::vector<CertifiedHit> read_collisions(hid_t file, const std::string& name, i
 }  // namespace
 
 StoredCertified read_certified(const std::string& name) {
-  hdf5::silence();
-  const Handle file = open_archive(name, "the file is not an archive, or it is still being written",
-                                   "an archive of carom");
-  if (hdf5::read_string_attribute(file.get(), "kind", name) != certified_archive_kind)
-    throw InputError(Place{name, 0, 0, ""}, "the archive holds no certified run",
-                     "one written by carom run --precision certified -o");
-  hdf5::verify(file.get(), name);
+  const Handle file = open_kind(name, certified_archive_kind, "the archive holds no certified run",
+                                "one written by carom run --precision certified -o");
   StoredCertified stored;
-  stored.system_toml = hdf5::read_text(file.get(), "system", name);
-  stored.system_name =
-      hdf5::read_string_attribute(open_group(file.get(), "provenance", name).get(), "system", name);
+  read_head(file.get(), name, stored, stored);
   read_guarantee(file.get(), name, stored);
   read_end(file.get(), name, stored);
   stored.hits = read_collisions(file.get(), name, stored.task.digits);

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "carom/certify/certified_orbit.hpp"
-#include "cli/common.hpp"
 #include "cli/outcome.hpp"
 
 namespace carom::cli {

@@ -61,14 +61,9 @@ StoredRun read_run(const std::string& name) {
   if (run.status == "running")
     throw InputError(place, "its run was killed", "the archive of a finished or interrupted run");
   hdf5::verify(file.get(), name);  // what goes on is kept beside what it goes on from
-  run.system_toml = hdf5::read_text(file.get(), "system", name);
-  const Handle provenance(H5Gopen2(file.get(), "provenance", H5P_DEFAULT), H5Gclose);
-  run.system_name = hdf5::read_string_attribute(provenance.get(), "system", name);
-  run.engine = hdf5::read_string_attribute(provenance.get(), "engine", name);
-  const Seconds seconds = ArchiveFile::read_seconds(provenance.get(), name);
-  run.seconds = seconds.wall;
-  run.cpu_seconds = seconds.cpu;
-  run.trajectory = hdf5::read_attribute<std::uint64_t>(provenance.get(), trajectory_key, name);
+  read_head(file.get(), name, run, run);
+  run.trajectory = hdf5::read_attribute<std::uint64_t>(
+      open_group(file.get(), "provenance", name).get(), trajectory_key, name);
 
   const Handle state(H5Gopen2(file.get(), "state", H5P_DEFAULT), H5Gclose);
   run.particles = read_all_rows<ParticleProgress>(state.get(), name);

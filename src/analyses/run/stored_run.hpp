@@ -4,7 +4,6 @@
 #include <string>
 
 #include "carom/analyses/run/archive.hpp"
-#include "carom/files/archive.hpp"
 #include "carom/files/ensembles.hpp"
 #include "carom/system/system.hpp"
 

@@ -6,7 +6,6 @@
 
 #include "analyses/escape/report_decay.hpp"
 #include "carom/base/elementary.hpp"
-#include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 
 namespace carom::cli {

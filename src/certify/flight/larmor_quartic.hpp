@@ -58,9 +58,7 @@ inline Interval union_of(const Interval& a, const Interval& b) {
   return {std::min(a.low, b.low), std::max(a.high, b.high)};
 }
 inline Ball union_of(const Ball& a, const Ball& b) {
-  Ball r;
-  arb_union(r.raw(), a.raw(), b.raw(), Precision::bits());
-  return r;
+  return made<Ball>(arb_union, a.raw(), b.raw(), Precision::bits());
 }
 
 /// The way of (p, q) along a Larmor circle in three straight pieces, s from 0 to 1 in each. p is in

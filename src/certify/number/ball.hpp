@@ -34,6 +34,14 @@ class Precision {
   slong before_;
 };
 
+/// What one of Arb's functions makes of its operands.
+template <class Number>
+Number made(auto function, const auto&... of) {
+  Number r;
+  function(r.raw(), of...);
+  return r;
+}
+
 /// An upper bound of a size, with an exponent of any length; every operation rounds up.
 class Bound {
  public:
@@ -53,14 +61,10 @@ class Bound {
   ~Bound() { mag_clear(x_); }
 
   friend Bound operator+(const Bound& a, const Bound& b) {
-    Bound r;
-    mag_add(r.x_, a.x_, b.x_);
-    return r;
+    return made<Bound>(mag_add, a.x_, b.x_);
   }
   friend Bound operator*(const Bound& a, const Bound& b) {
-    Bound r;
-    mag_mul(r.x_, a.x_, b.x_);
-    return r;
+    return made<Bound>(mag_mul, a.x_, b.x_);
   }
   friend bool operator<(const Bound& a, const Bound& b) { return mag_cmp(a.x_, b.x_) < 0; }
 
@@ -98,36 +102,20 @@ class Ball {
   ~Ball() { arb_clear(x_); }
 
   friend Ball operator+(const Ball& a, const Ball& b) {
-    Ball r;
-    arb_add(r.x_, a.x_, b.x_, Precision::bits());
-    return r;
+    return made<Ball>(arb_add, a.x_, b.x_, Precision::bits());
   }
   friend Ball operator-(const Ball& a, const Ball& b) {
-    Ball r;
-    arb_sub(r.x_, a.x_, b.x_, Precision::bits());
-    return r;
+    return made<Ball>(arb_sub, a.x_, b.x_, Precision::bits());
   }
-  friend Ball operator-(const Ball& a) {
-    Ball r;
-    arb_neg(r.x_, a.x_);
-    return r;
-  }
+  friend Ball operator-(const Ball& a) { return made<Ball>(arb_neg, a.x_); }
   friend Ball operator*(const Ball& a, const Ball& b) {
-    Ball r;
-    arb_mul(r.x_, a.x_, b.x_, Precision::bits());
-    return r;
+    return made<Ball>(arb_mul, a.x_, b.x_, Precision::bits());
   }
   friend Ball operator/(const Ball& a, const Ball& b) {
-    Ball r;
-    arb_div(r.x_, a.x_, b.x_, Precision::bits());
-    return r;
+    return made<Ball>(arb_div, a.x_, b.x_, Precision::bits());
   }
 
-  Ball midpoint() const {
-    Ball r;
-    arb_get_mid_arb(r.x_, x_);
-    return r;
-  }
+  Ball midpoint() const { return made<Ball>(arb_get_mid_arb, x_); }
   Bound radius() const { return Bound(arb_radref(x_)); }
   /// The ball made larger by `error`.
   Ball widened(const Bound& error) const {
@@ -136,11 +124,7 @@ class Ball {
     return r;
   }
   /// Rounded to the present precision.
-  Ball rounded() const {
-    Ball r;
-    arb_set_round(r.x_, x_, Precision::bits());
-    return r;
-  }
+  Ball rounded() const { return made<Ball>(arb_set_round, x_, Precision::bits()); }
   bool contains(const Ball& o) const { return arb_contains(x_, o.x_) != 0; }
   bool overlaps(const Ball& o) const { return arb_overlaps(x_, o.x_) != 0; }
   double to_double() const { return arf_get_d(arb_midref(x_), ARF_RND_NEAR); }
@@ -155,24 +139,12 @@ class Ball {
 };
 
 /// No number of the ball is larger in size.
-inline Bound size_of(const Ball& x) {
-  Bound size;
-  arb_get_mag(size.raw(), x.raw());
-  return size;
-}
+inline Bound size_of(const Ball& x) { return made<Bound>(arb_get_mag, x.raw()); }
 
 /// The root of a number that is known not to be negative: the part of its ball below zero is
 /// ignored.
-inline Ball sqrt(const Ball& a) {
-  Ball r;
-  arb_sqrtpos(r.raw(), a.raw(), Precision::bits());
-  return r;
-}
-inline Ball square(const Ball& a) {
-  Ball r;
-  arb_sqr(r.raw(), a.raw(), Precision::bits());
-  return r;
-}
+inline Ball sqrt(const Ball& a) { return made<Ball>(arb_sqrtpos, a.raw(), Precision::bits()); }
+inline Ball square(const Ball& a) { return made<Ball>(arb_sqr, a.raw(), Precision::bits()); }
 inline Sign sign(const Ball& a) {
   if (arb_is_positive(a.raw()) != 0) return Sign::positive;
   if (arb_is_negative(a.raw()) != 0) return Sign::negative;

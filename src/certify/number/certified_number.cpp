@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/name_among.hpp"
 #include "carom/base/error.hpp"
 #include "certify/number/enclosure_of.hpp"
 
@@ -42,23 +43,9 @@ double CertifiedNumber::to_double() const { return value_->ball.to_double(); }
 double CertifiedNumber::log2_error() const { return value_->ball.radius().log2(); }
 
 const char* name_of(CertifiedFate fate) {
-  switch (fate) {
-    case CertifiedFate::completed:
-      return "completed";
-    case CertifiedFate::escaped:
-      return "escaped";
-    case CertifiedFate::unbounded:
-      return "unbounded";
-    case CertifiedFate::pinned:
-      return "pinned";
-    case CertifiedFate::singular:
-      return "singular";
-    case CertifiedFate::interrupted:
-      return "interrupted";
-    case CertifiedFate::undecided:
-      break;
-  }
-  return "undecided";
+  return base::name_among<CertifiedFate::interrupted>(
+      {"completed", "escaped", "unbounded", "pinned", "singular", "undecided", "interrupted"},
+      fate);
 }
 
 void check_digits(std::uint64_t digits, const Table& table, const Place& place) {

@@ -44,40 +44,24 @@ class Series {
     return r;
   }
 
-  Ball operator[](slong k) const {
-    Ball r;
-    arb_poly_get_coeff_arb(r.raw(), x_, k);
-    return r;
-  }
+  Ball operator[](slong k) const { return made<Ball>(arb_poly_get_coeff_arb, x_, k); }
   void set(slong k, const Ball& value) { arb_poly_set_coeff_arb(x_, k, value.raw()); }
   bool is_constant() const { return arb_poly_length(x_) <= 1; }
 
   friend Series operator+(const Series& a, const Series& b) {
-    Series r;
-    arb_poly_add_series(r.x_, a.x_, b.x_, terms_, Precision::bits());
-    return r;
+    return made<Series>(arb_poly_add_series, a.x_, b.x_, terms_, Precision::bits());
   }
-  friend Series operator-(const Series& a) {
-    Series r;
-    arb_poly_neg(r.x_, a.x_);
-    return r;
-  }
+  friend Series operator-(const Series& a) { return made<Series>(arb_poly_neg, a.x_); }
   friend Series operator-(const Series& a, const Series& b) { return a + -b; }
   friend Series operator*(const Series& a, const Series& b) {
-    Series r;
-    arb_poly_mullow(r.x_, a.x_, b.x_, terms_, Precision::bits());
-    return r;
+    return made<Series>(arb_poly_mullow, a.x_, b.x_, terms_, Precision::bits());
   }
   friend Series operator/(const Series& a, const Series& b) {
-    Series r;
-    arb_poly_div_series(r.x_, a.x_, b.x_, terms_, Precision::bits());
-    return r;
+    return made<Series>(arb_poly_div_series, a.x_, b.x_, terms_, Precision::bits());
   }
   /// The polynomial about another number.
   Series shifted(const Ball& by) const {
-    Series r;
-    arb_poly_taylor_shift(r.x_, x_, by.raw(), Precision::bits());
-    return r;
+    return made<Series>(arb_poly_taylor_shift, x_, by.raw(), Precision::bits());
   }
 
   arb_poly_struct* raw() { return x_; }

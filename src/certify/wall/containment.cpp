@@ -1,6 +1,6 @@
 #include "certify/wall/containment.hpp"
 
-#include "carom/geometry/region.hpp"
+#include "table/loops.hpp"
 
 namespace carom::certify {
 namespace {
@@ -54,19 +54,8 @@ Verdict within(const WallLoop& loop, const std::vector<WallOf<Ball>>& walls, con
 
 std::vector<WallLoop> loops_of(const Table& table) {
   std::vector<WallLoop> loops;
-  std::vector<bool> seen(table.walls.size());
-  for (std::size_t start = 0; start < table.walls.size(); ++start) {
-    WallLoop loop;
-    geometry::Loop curves;
-    for (std::size_t k = start; !seen[k]; k = static_cast<std::size_t>(table.walls[k].next)) {
-      seen[k] = true;
-      loop.walls.push_back(static_cast<int>(k));
-      curves.push_back({table.walls[k].name, table.walls[k].curve});
-    }
-    if (loop.walls.empty()) continue;
-    loop.obstacle = geometry::area({curves}) < 0.0;
-    loops.push_back(std::move(loop));
-  }
+  for (const std::vector<int>& loop : table::wall_loops(table))
+    loops.push_back({loop, geometry::area({table::curves_of(table, loop)}) < 0.0});
   return loops;
 }
 

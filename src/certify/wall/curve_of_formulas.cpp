@@ -12,13 +12,9 @@
 namespace carom::certify {
 namespace {
 
-using Function = base::FormulaFunction;
+using Function = base::Operation;
 
-Ball indeterminate() {
-  Ball r;
-  arb_indeterminate(r.raw());
-  return r;
-}
+Ball indeterminate() { return made<Ball>(arb_indeterminate); }
 
 Series without_derivatives(const Ball& value) {
   Series r(value);
@@ -138,7 +134,7 @@ class InBalls {
   }
   static int arguments_of(const std::string& word) { return base::arguments_of_formula_word(word); }
   static Series call(const std::string& word, const std::vector<Series>& of) {
-    const Function function = base::formula_word(word)->function;
+    const Function function = base::formula_word(word)->operation;
     return of.size() == 1 ? of_one(function, of[0]) : of_two(function, of[0], of[1]);
   }
 

@@ -27,9 +27,7 @@ Series speed_about(const Piece& piece, const Ball& t, slong terms) {
 }
 
 Ball value_at(const Series& polynomial, const Ball& x) {
-  Ball r;
-  arb_poly_evaluate(r.raw(), polynomial.raw(), x.raw(), Precision::bits());
-  return r;
+  return made<Ball>(arb_poly_evaluate, polynomial.raw(), x.raw(), Precision::bits());
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // Which discs touch next: predictions of contacts among free flights, and which discs are near.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "carom/base/time.hpp"

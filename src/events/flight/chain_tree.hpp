@@ -7,15 +7,15 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "base/pair.hpp"
 #include "carom/geometry/curve.hpp"
 #include "carom/geometry/filter.hpp"
-#include "events/flight/pair_of_doubles.hpp"
 
 namespace carom::events {
+
+using base::Pair, base::both, base::smaller, base::larger, base::between, base::pair_at;
 
 class ChainTree {
  public:
@@ -61,7 +61,7 @@ class ChainTree {
     geometry::Vector middle;  ///< the joint of its halves
   };
   // Of two roots at once.
-  using TwoVectors = geometry::BasicVector<PairOfDoubles>;
+  using TwoVectors = geometry::BasicVector<Pair>;
   static TwoVectors both_of(geometry::Vector a) { return {both(a.x), both(a.y)}; }
   template <std::size_t size>
   static TwoVectors pairs_at(const std::array<double, size>& x, const std::array<double, size>& y,
@@ -70,10 +70,9 @@ class ChainTree {
   }
   /// Bits 0 and 1: the ends are not both beyond `near` on one side, and the side does not fall (it
   /// rises by `rise` at most).
-  static unsigned open_pair(PairOfDoubles from, PairOfDoubles to, PairOfDoubles near,
-                            PairOfDoubles rise) {
-    const PairOfDoubles beyond = larger(smaller(from, to), -larger(from, to)) - near,
-                        out = larger(beyond, -rise);
+  static unsigned open_pair(Pair from, Pair to, Pair near, Pair rise) {
+    const Pair beyond = larger(smaller(from, to), -larger(from, to)) - near,
+               out = larger(beyond, -rise);
     return ~base::signs(out > both(0.0)) & 3u;
   }
   /// The nodes that flights begin with, number by number.
@@ -124,15 +123,14 @@ class ChainTree {
     unsigned open(const Roots& roots) const {
       const TwoVectors start = both_of(start_), v = both_of(velocity_);
       // Sides stay in registers: a pair from memory would wait for both of those that it is of.
-      PairOfDoubles from = cross(v, pairs_at(roots.x, roots.y, 0) - start);
+      Pair from = cross(v, pairs_at(roots.x, roots.y, 0) - start);
       unsigned found = 0;
       for (std::size_t i = 0; i < Roots::most; i += 2) {
-        const PairOfDoubles after = cross(v, pairs_at(roots.x, roots.y, i + 2) - start);
-        const PairOfDoubles a = cross(v, pairs_at(roots.first_x, roots.first_y, i)),
-                            b = cross(v, pairs_at(roots.last_x, roots.last_y, i)),
-                            error = both(error_),
-                            wide = both(speed_) * pair_at(roots.bulge, i) + error,
-                            near = smaller(a, b) > both(0.0) ? error : wide;
+        const Pair after = cross(v, pairs_at(roots.x, roots.y, i + 2) - start);
+        const Pair a = cross(v, pairs_at(roots.first_x, roots.first_y, i)),
+                   b = cross(v, pairs_at(roots.last_x, roots.last_y, i)), error = both(error_),
+                   wide = both(speed_) * pair_at(roots.bulge, i) + error,
+                   near = smaller(a, b) > both(0.0) ? error : wide;
         found |= open_pair(from, between(from, after), near, larger(a, b)) << i;
         from = after;
       }
@@ -175,9 +173,9 @@ class ChainTree {
 
     unsigned open(const Roots& roots) const {
       const TwoVectors start = both_of(start_), v = both_of(velocity_);
-      const PairOfDoubles omega = both(omega_), w = both(w_);
+      const Pair omega = both(omega_), w = both(w_);
       struct {
-        PairOfDoubles side;
+        Pair side;
         TwoVectors along;
       } at, after;
       const auto see = [&](std::size_t i, auto& joints) {
@@ -192,12 +190,12 @@ class ChainTree {
         const auto first = pairs_at(roots.first_x, roots.first_y, i),
                    last = pairs_at(roots.last_x, roots.last_y, i), from = at.along;
         const TwoVectors to{between(from.x, after.along.x), between(from.y, after.along.y)};
-        const PairOfDoubles a = cross(from, first), b = cross(from, last), c = cross(to, first),
-                            d = cross(to, last), bulge = pair_at(roots.bulge, i),
-                            turned = w * bulge + both(turn_error_), error = both(error_),
-                            wide = bulge * (both(speed_) + w * bulge) +
-                                   w * pair_at(roots.quarter, i) + error,
-                            near = smaller(smaller(a, b), smaller(c, d)) > turned ? error : wide;
+        const Pair a = cross(from, first), b = cross(from, last), c = cross(to, first),
+                   d = cross(to, last), bulge = pair_at(roots.bulge, i),
+                   turned = w * bulge + both(turn_error_), error = both(error_),
+                   wide =
+                       bulge * (both(speed_) + w * bulge) + w * pair_at(roots.quarter, i) + error,
+                   near = smaller(smaller(a, b), smaller(c, d)) > turned ? error : wide;
         found |= open_pair(at.side, between(at.side, after.side), near,
                            larger(larger(a, b), larger(c, d)) + turned)
                  << i;

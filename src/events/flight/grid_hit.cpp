@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/index.hpp"
-#include "carom/geometry/hull.hpp"
 #include "events/flight/cell_walk.hpp"
 #include "events/flight/chain_tree.hpp"
 #include "events/flight/crossing.hpp"

@@ -1,7 +1,6 @@
 #include "events/flight/next_hit.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "base/index.hpp"
 #include "events/flight/bounded.hpp"

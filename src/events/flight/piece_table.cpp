@@ -13,6 +13,7 @@
 #include "events/flight/chain_tree.hpp"
 #include "events/flight/crossing.hpp"
 #include "events/flight/piece_table.hpp"
+#include "table/loops.hpp"
 #include "table/thin_walls.hpp"
 
 namespace carom::events {
@@ -240,24 +241,20 @@ auto PieceTable::Preparation::loops_that_reach() const -> std::vector<Images> {
     throw InputError(
         "copies of the walls and supports from more than " + std::to_string(most) +
         " cells of the lattice made_.reach into one: the table is too wide for its lattice");
+  const std::vector<std::vector<int>> loops = table::wall_loops(table_);
   for (const Cell& cell_of_copy : *copies) {
     if (cell_of_copy == Cell{}) continue;
     const Vector t = displacement(lattice, cell_of_copy);
     if (outside(whole, 0.5 * wall_size, t)) continue;
     Images copies_there{cell_of_copy, {}};
-    std::vector<bool> done(table_.walls.size(), false);
-    for (std::size_t first = 0; first < table_.walls.size(); ++first) {
-      if (done[first]) continue;
-      bool reaches = false;
-      for (std::size_t i = first; !done[i]; i = at(table_.walls[i].next)) {
-        done[i] = true;
-        const PreparedCurve& c = curves[i];
-        if (reaches) continue;
-        reaches =
-            c.kind == CurveKind::circle ? !circle_outside(c, t) : !outside(boxes[i], c.extent, t);
-      }
-      if (reaches) copies_there.loops.push_back(static_cast<int>(first));
-    }
+    const auto reaches = [&](int wall) {
+      const PreparedCurve& c = curves[at(wall)];
+      return c.kind == CurveKind::circle ? !circle_outside(c, t)
+                                         : !outside(boxes[at(wall)], c.extent, t);
+    };
+    for (const std::vector<int>& loop : loops)
+      if (std::any_of(loop.begin(), loop.end(), reaches))
+        copies_there.loops.push_back(loop.front());
     if (!copies_there.loops.empty()) found.push_back(std::move(copies_there));
   }
   return found;

@@ -1,7 +1,8 @@
 // Does a step resolve the forces that it crosses? forces/resolution.hpp has the criterion.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "carom/integrators/scheme.hpp"
 #include "events/step/group.hpp"
@@ -244,17 +245,13 @@ std::string Group::describe_unresolved(const Phase<double>& at, double step, dou
     ++member;
   }
   const Vector x = at.position[member];
-  char text[200];
   if (shorter > 0.0)
-    std::snprintf(text, sizeof text,
-                  "a step of %.3g does not resolve the forces near (%.6g, %.6g); there it may be "
-                  "%.3g at most",
-                  step, x.x, x.y, shorter);
-  else
-    std::snprintf(text, sizeof text,
-                  "no step resolves the forces near (%.6g, %.6g), where they have no bound", x.x,
-                  x.y);
-  return text;
+    return fmt::format(
+        "a step of {:.3g} does not resolve the forces near ({:.6g}, {:.6g}); there it may be "
+        "{:.3g} at most",
+        step, x.x, x.y, shorter);
+  return fmt::format("no step resolves the forces near ({:.6g}, {:.6g}), where they have no bound",
+                     x.x, x.y);
 }
 
 }  // namespace carom::events

@@ -5,7 +5,7 @@
 
 #include "carom/base/error.hpp"
 #include "files/checkpoint/ensemble_columns.hpp"
-#include "files/hdf5/stored_rows.hpp"
+#include "files/hdf5/archive_file.hpp"
 
 namespace carom::files {
 

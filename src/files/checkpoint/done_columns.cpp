@@ -6,21 +6,12 @@
 #include <sstream>
 #include <utility>
 
-#include "carom/base/error.hpp"
 #include "files/checkpoint/ensemble_columns.hpp"
 
 namespace carom::files {
 
 using hdf5::Description;
 using hdf5::Handle;
-
-Handle open_group(hid_t file, const char* group, const std::string& name) {
-  Handle handle(H5Gopen2(file, group, H5P_DEFAULT), H5Gclose);
-  if (!handle)
-    throw InputError(Place{name, 0, 0, ""}, fmt::format("'{}' is missing", group),
-                     "an archive of an ensemble");
-  return handle;
-}
 
 void write_done(const ArchiveFile& file, const EnsembleResult& result) {
   std::vector<std::uint64_t> first, last;

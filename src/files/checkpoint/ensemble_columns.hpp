@@ -26,8 +26,6 @@ FateCounts read_fates(const hdf5::Handle& fates, const std::string& name, std::u
 void write_integration(hid_t fates, const StepCounts&, const EnergyError&, const std::string& name);
 void read_integration(hid_t fates, const std::string& name, StepCounts&, EnergyError&);
 
-/// A group of an archive that is read; InputError where it is missing.
-hdf5::Handle open_group(hid_t file, const char* group, const std::string& name);
 /// Names of all fates, by their number.
 std::vector<std::string> fate_names();
 void name_record_columns(const ArchiveFile&, const System&);

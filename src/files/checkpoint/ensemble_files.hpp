@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "carom/files/archive.hpp"
 #include "carom/files/ensembles.hpp"
 #include "files/checkpoint/record_log.hpp"
 #include "files/checkpoint/work_folder.hpp"

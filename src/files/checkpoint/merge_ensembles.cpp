@@ -181,9 +181,7 @@ void write_sum(const std::string& path, const LoadedSystem& loaded, const Proven
     for (const EnsemblePart& part : sum.parts) sources.emplace_back(part.file, part.done, system);
     write_records<Result>(file, system, sources);
   }
-  file.set_status(sum.status, sum.result.complete);
-  file.keep_as(path);
-  give_up_checkpoint(path);
+  file.finish(sum.status, sum.result.complete);
 }
 
 #define CAROM_MAKE(Result)                                                            \

@@ -53,10 +53,7 @@ Stored<Result> read_one(const std::string& name) {
     return hdf5::read_string_attribute(from, what, name);
   };
   stored.file = name;
-  stored.status = hdf5::read_string_attribute(file.get(), "status", name);
-  stored.system_toml = hdf5::read_text(file.get(), "system", name);
-  stored.system_name = attribute("system");
-  stored.engine = attribute("engine");
+  read_head(file.get(), name, stored, result);
   stored.everywhere = hdf5::read_attribute<std::int64_t>(from, "everywhere", name) == 1;
   if (H5Aexists(from, arithmetic_key) > 0) stored.arithmetic = attribute(arithmetic_key);
   stored.shard = shard_of(attribute("shard"), Place{name, 0, 0, ""});
@@ -66,11 +63,6 @@ Stored<Result> read_one(const std::string& name) {
   stored.per_trajectory = hdf5::has(file.get(), "trajectories") || hdf5::has(file.get(), "records");
   read_counts(file.get(), name, result);
   read_done(file.get(), name, result);
-  result.complete = hdf5::read_attribute<std::int64_t>(file.get(), "complete", name) == 1;
-  result.threads = static_cast<int>(hdf5::read_attribute<std::int64_t>(from, "threads", name));
-  const Seconds seconds = ArchiveFile::read_seconds(from, name);
-  result.seconds = seconds.wall;
-  result.cpu_seconds = seconds.cpu;
   const auto count = [&](const char* what) {
     return static_cast<std::uint64_t>(hdf5::read_attribute<std::int64_t>(from, what, name));
   };

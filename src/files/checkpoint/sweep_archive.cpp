@@ -14,7 +14,6 @@
 #include "files/checkpoint/work_folder.hpp"
 #include "files/hdf5/archive_file.hpp"
 #include "files/hdf5/checksums.hpp"
-#include "files/hdf5/stored_rows.hpp"
 
 namespace carom::files {
 

@@ -19,7 +19,6 @@
 #include "files/checkpoint/rank_parts.hpp"
 #include "files/checkpoint/sweep_archive.hpp"
 #include "files/checkpoint/work_folder.hpp"
-#include "files/hdf5/stored_rows.hpp"
 #include "files/platform.hpp"
 
 namespace carom {
@@ -148,6 +147,17 @@ ArchiveFile ArchiveFile::open(const std::string& path, const std::string& name) 
   return ArchiveFile(std::move(file), path, name);
 }
 
+ArchiveFile ArchiveFile::begin(const char* kind, const std::string& name,
+                               const LoadedSystem& loaded, const Provenance& origin, bool force,
+                               ArchiveLock& lock) {
+  if (!lock) lock = lock_archive(name);
+  refuse_existing(name, force);
+  hdf5::silence();
+  ArchiveFile file = create(aside_of(name), name);
+  file.write_head(kind, loaded, origin);
+  return file;
+}
+
 Handle ArchiveFile::group(const char* path, const char* description) const {
   const Handle creation = attributes_in_headers(name_);
   Handle group = hdf5::checked(H5Gcreate2(id(), path, H5P_DEFAULT, creation.get(), H5P_DEFAULT),
@@ -267,6 +277,12 @@ void ArchiveFile::keep_as(const std::string& target) {
   sync(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY, name_);
 }
 
+void ArchiveFile::finish(const std::string& status, bool complete) {
+  set_status(status, complete);
+  keep_as(name_);
+  give_up_checkpoint(name_);
+}
+
 hdf5::Handle files::open_archive(const std::string& name, const std::string& problem,
                                  const std::string& expected) {
   const Place place{name, 0, 0, ""};
@@ -285,6 +301,29 @@ hdf5::Handle files::open_archive(const std::string& name, const std::string& pro
     throw InputError(place, "the archive has another schema",
                      "one written by this version of carom");
   return file;
+}
+
+Handle files::open_finished(const std::string& name) {
+  hdf5::silence();
+  return open_archive(name, "the file is not an archive, or it is still being written",
+                      "an archive of carom");
+}
+
+Handle files::open_kind(const std::string& name, const std::string& kind,
+                        const std::string& problem, const std::string& expected) {
+  Handle file = open_finished(name);
+  if (hdf5::read_string_attribute(file.get(), "kind", name) != kind)
+    throw InputError(Place{name, 0, 0, ""}, problem, expected);
+  hdf5::verify(file.get(), name);
+  return file;
+}
+
+Handle files::open_group(hid_t file, const char* group, const std::string& name) {
+  Handle handle(H5Gopen2(file, group, H5P_DEFAULT), H5Gclose);
+  if (!handle)
+    throw InputError(Place{name, 0, 0, ""}, fmt::format("'{}' is missing", group),
+                     "an archive of an ensemble");
+  return handle;
 }
 
 std::string kind_of_archive(const std::string& file) {

@@ -22,6 +22,10 @@ class ArchiveFile {
   static ArchiveFile create(const std::string& path, const std::string& name);
   /// Opens an existing file for changes.
   static ArchiveFile open(const std::string& path, const std::string& name);
+  /// Begins the archive `name`, aside, with its head. Takes its lock unless it is given one. Throws
+  /// InputError where the file exists and `force` is not set.
+  static ArchiveFile begin(const char* kind, const std::string& name, const LoadedSystem&,
+                           const Provenance&, bool force, ArchiveLock&);
   ArchiveFile(ArchiveFile&&) noexcept;
   ArchiveFile& operator=(ArchiveFile&&) = delete;
   ~ArchiveFile();
@@ -48,6 +52,8 @@ class ArchiveFile {
   /// Writes the checksums of all it holds, closes, syncs and renames to `target` (may be the path
   /// itself).
   void keep_as(const std::string& target);
+  /// Sets the status, keeps it by its name, and removes what an ensemble of this name has left.
+  void finish(const std::string& status, bool complete);
   /// Columns that are closed with it need not be read again for their checksums.
   hdf5::KnownSums* sums() { return &sums_; }
 
@@ -67,9 +73,39 @@ inline constexpr int archive_schema = 1;
 /// it (with this problem and what was expected), or where its schema is another one.
 hdf5::Handle open_archive(const std::string& name, const std::string& problem,
                           const std::string& expected);
+/// An archive that is complete; InputError for anything else.
+hdf5::Handle open_finished(const std::string& name);
+/// The same, of this kind and not damaged; where it is of another kind, InputError with this
+/// problem and what was expected.
+hdf5::Handle open_kind(const std::string& name, const std::string& kind, const std::string& problem,
+                       const std::string& expected);
+/// A group of an archive that is read; InputError where it is missing.
+hdf5::Handle open_group(hid_t file, const char* group, const std::string& name);
 inline constexpr const char *run_archive_kind = "run", *section_archive_kind = "section",
                             *certified_archive_kind = "certified";
 /// Of a run, in /provenance: which trajectory of the ensemble it is.
 inline constexpr const char* trajectory_key = "trajectory";
+
+/// What every archive says of itself: those members that the two have.
+template <class Stored, class Result>
+void read_head(hid_t file, const std::string& name, Stored& stored, Result& result) {
+  const hdf5::Handle provenance = open_group(file, "provenance", name);
+  const hid_t from = provenance.get();
+  stored.system_toml = hdf5::read_text(file, "system", name);
+  stored.system_name = hdf5::read_string_attribute(from, "system", name);
+  if constexpr (requires { stored.status; })
+    stored.status = hdf5::read_string_attribute(file, "status", name);
+  if constexpr (requires { stored.engine; })
+    stored.engine = hdf5::read_string_attribute(from, "engine", name);
+  if constexpr (requires { result.complete; })
+    result.complete = hdf5::read_attribute<std::int64_t>(file, "complete", name) != 0;
+  if constexpr (requires { result.threads; })
+    result.threads = static_cast<int>(hdf5::read_attribute<std::int64_t>(from, "threads", name));
+  if constexpr (requires { result.cpu_seconds; }) {
+    const Seconds seconds = ArchiveFile::read_seconds(from, name);
+    result.seconds = seconds.wall;
+    result.cpu_seconds = seconds.cpu;
+  }
+}
 
 }  // namespace carom::files

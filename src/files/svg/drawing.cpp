@@ -18,32 +18,10 @@ const std::vector<std::string> drawn{"path", "circle",  "ellipse", "rect",
                                      "line", "polygon", "polyline"};
 const std::vector<std::string> groups{"svg", "g", "a", "switch"};
 // What draws nothing that could be a wall; it is passed with all that it holds.
-const std::vector<std::string> passed{"animate",
-                                      "animateMotion",
-                                      "animateTransform",
-                                      "clipPath",
-                                      "color-profile",
-                                      "cursor",
-                                      "defs",
-                                      "desc",
-                                      "filter",
-                                      "font",
-                                      "font-face",
-                                      "foreignObject",
-                                      "image",
-                                      "linearGradient",
-                                      "marker",
-                                      "mask",
-                                      "metadata",
-                                      "pattern",
-                                      "radialGradient",
-                                      "script",
-                                      "set",
-                                      "style",
-                                      "symbol",
-                                      "text",
-                                      "title",
-                                      "view"};
+constexpr std::string_view passed =
+    " animate animateMotion animateTransform clipPath color-profile cursor defs desc filter "
+    "font font-face foreignObject image linearGradient marker mask metadata pattern "
+    "radialGradient script set style symbol text title view ";
 
 /// Is the element, with all in it, switched off? Style sheets are not read.
 bool is_hidden(const XmlTag& tag) {
@@ -96,7 +74,8 @@ class Reader {
 
   bool passes(const XmlTag& tag) const {
     const std::string name(tag.name);
-    if (is_one_of(name, passed) || name.find(':') != std::string::npos || is_hidden(tag))
+    if (passed.find(" " + name + " ") != passed.npos || name.find(':') != std::string::npos ||
+        is_hidden(tag))
       return true;
     if (is_one_of(name, drawn) || is_one_of(name, groups)) return false;
     if (name == "use")

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "base/shown_character.hpp"
-
 namespace carom::files {
 namespace {
 

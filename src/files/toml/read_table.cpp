@@ -38,7 +38,7 @@ HoleSpec read_hole(Value& value, std::size_t index) {
   return hole;
 }
 
-WallLawSpec read_law(Value& value) {
+WallLawSpec read_law(Value& value, std::size_t) {
   const std::string law =
       read_kind(value, "table.wall", "law", {"specular", "diffuse", "mixed", "rough", "thermal"});
   TomlSection section(value, "table.wall", law);
@@ -126,7 +126,7 @@ Place inside_quotes(const Value& text) {
 
 WrittenFormula read_formula(const Value& value) { return {as_text(value), inside_quotes(value)}; }
 
-RegionSpec read_region(Value& value) {
+RegionSpec read_region(Value& value, std::size_t) {
   const bool has_edge = value.find("start") != nullptr || value.find("pieces") != nullptr;
   TomlSection section(value, "table.region", has_edge ? "pieces" : "obstacle");
   section.check_keys();
@@ -147,7 +147,7 @@ RegionSpec read_region(Value& value) {
   return spec;
 }
 
-LoopSpec read_loop(Value& value) {
+LoopSpec read_loop(Value& value, std::size_t) {
   using Form = LoopSpec::Kind;
   const auto has = [&](const char* key) { return value.find(key) != nullptr; };
   LoopSpec loop;
@@ -297,29 +297,17 @@ TableSpec read_table(Value& root) {
                        nearest_name(value.text, {"triangular", "square"}));
     }
   }
-  if (Value* loops = section.find("loop")) {
-    as_sections(*loops, "start = [0, 0]");
-    for (Value& loop : loops->items) spec.loops.push_back(read_loop(loop));
-  }
-  if (Value* obstacles = section.find("obstacle")) {
-    as_sections(*obstacles, "shape = \"circle\"");
-    for (std::size_t k = 0; k < obstacles->items.size(); ++k)
-      spec.obstacles.push_back(read_obstacle(obstacles->items[k], k));
-  }
-  if (Value* holes = section.find("hole")) {
-    as_sections(*holes, "wall = \"bottom\"");
-    for (std::size_t k = 0; k < holes->items.size(); ++k) {
-      spec.holes.push_back(read_hole(holes->items[k], k));
-    }
-  }
-  if (Value* laws = section.find("wall")) {
-    as_sections(*laws, "wall = \"bottom\"");
-    for (Value& law : laws->items) spec.laws.push_back(read_law(law));
-  }
-  if (Value* regions = section.find("region")) {
-    as_sections(*regions, "wall = \"obstacle_1\"");
-    for (Value& region : regions->items) spec.regions.push_back(read_region(region));
-  }
+  const auto read_all = [&](const char* key, const char* example, auto& to, auto read) {
+    Value* list = section.find(key);
+    if (list == nullptr) return;
+    as_sections(*list, example);
+    for (std::size_t k = 0; k < list->items.size(); ++k) to.push_back(read(list->items[k], k));
+  };
+  read_all("loop", "start = [0, 0]", spec.loops, read_loop);
+  read_all("obstacle", "shape = \"circle\"", spec.obstacles, read_obstacle);
+  read_all("hole", "wall = \"bottom\"", spec.holes, read_hole);
+  read_all("wall", "wall = \"bottom\"", spec.laws, read_law);
+  read_all("region", "wall = \"obstacle_1\"", spec.regions, read_region);
   if (Value* lattice = root.find("lattice")) read_lattice(*lattice, spec);
   return spec;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/name_among.hpp"
+
 namespace carom::files {
 namespace {
 
@@ -104,21 +106,8 @@ void Value::erase(std::string_view key) {
 }
 
 std::string name_of(Value::Kind kind) {
-  switch (kind) {
-    case Value::Kind::number:
-      return "a number";
-    case Value::Kind::text:
-      return "a string";
-    case Value::Kind::boolean:
-      return "a boolean";
-    case Value::Kind::list:
-      return "a list";
-    case Value::Kind::table:
-      return "a table";
-    case Value::Kind::other:
-      break;
-  }
-  return "a date or time";
+  return base::name_among<Value::Kind::other>(
+      {"a number", "a string", "a boolean", "a list", "a table", "a date or time"}, kind);
 }
 
 Value empty_value(Value::Kind kind, const Place& place) {

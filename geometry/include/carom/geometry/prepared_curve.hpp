@@ -44,8 +44,8 @@ struct alignas(64) PreparedCurve {
   double centre_error = 0.0;       ///< of `centre`
   // Ellipse: rows of the map to the unit circle of its axes, in which flights are intersected.
   Vector first_axis, second_axis;
-  Vector first_direction, second_direction;        ///< the same as unit vectors …
-  double first_weight = 0.0, second_weight = 0.0;  ///< … with the squares of their lengths
+  Vector first_direction;                          ///< the first as a unit vector
+  double first_weight = 0.0, second_weight = 0.0;  ///< the squares of their lengths
   double extent = 0.0;        ///< largest |coordinate| on the curve, rounded up
   double normal_error = 0.0;  ///< of a normal, relative to its l1 norm
 
