@@ -1,7 +1,9 @@
 #include <bit>
 #include <cmath>
 
+#include "forces/dual.hpp"
 #include "forces/formula.hpp"
+#include "forces/formula_evaluation.hpp"
 
 namespace carom::forces::formula {
 
@@ -9,8 +11,10 @@ Part Builder::fold(Instruction instruction, double a, double b) {
   instruction.a = 0;
   instruction.b = 1;
   const Formula alone{2, {instruction}, 2};
-  const double at[] = {a, b};
-  return number(alone.value(at));
+  Dual<0> at[most_variables];
+  at[0] = a;
+  at[1] = b;
+  return number(run(alone, at).v);
 }
 
 Part Builder::append(Instruction i) {
