@@ -28,7 +28,7 @@ TEST(Progress, EstimatesTheRestFromThisProcessAlone) {
 // Standard error is a terminal here, whatever the test's own is.
 TEST(Progress, SaysThatItIsAtWorkWhileNothingIsShown) {
   const int terminal = posix_openpt(O_RDWR | O_NOCTTY), before = dup(STDERR_FILENO);
-  ASSERT_GE(terminal, 0);
+  if (terminal < 0) GTEST_SKIP() << "no terminals";  // as under qemu-user
   ASSERT_EQ(grantpt(terminal), 0);
   ASSERT_EQ(unlockpt(terminal), 0);
   const int side = open(ptsname(terminal), O_RDWR | O_NOCTTY);
