@@ -1,27 +1,18 @@
 #include "cli/common.hpp"
 
 #include <fmt/format.h>
-#include <time.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
-#include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 
 #include "base/parts.hpp"
 #include "base/printable.hpp"
-#include "carom/analyses/run.hpp"
 #include "carom/base/exact_number.hpp"
 #include "carom/base/whole_number.hpp"
-#include "carom/integrators/scheme.hpp"
-#include "carom/starts/sampler.hpp"
 #include "carom/system/report_times.hpp"
 #include "carom_version.hpp"
-#include "cli/commands/ensemble_job.hpp"
 #include "cli/loading.hpp"
 #include "cli/reports/aligned.hpp"
 #include "files/checkpoint/work_folder.hpp"
@@ -29,8 +20,6 @@
 namespace carom::cli {
 
 using files::Json;
-
-namespace {}  // namespace
 
 // In one piece, so that lines of several processes do not mix. A closed stderr is no error.
 void write_message(const std::string& line) {

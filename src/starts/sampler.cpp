@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
 
 #include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"

@@ -6,7 +6,6 @@
 
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
-#include "carom/starts/sampler.hpp"
 #include "cli/common.hpp"
 #include "cli/loading.hpp"
 #include "files/checkpoint/rank_parts.hpp"
