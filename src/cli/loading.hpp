@@ -12,7 +12,8 @@ namespace carom::cli {
 /// The system that is asked for: of a sweep that of its value.
 LoadedSystem load(const Options&, const SystemOverrides&);
 LoadedSystem load_typed(const Options&);  ///< with what was typed
-/// Sets what --engine asks for: "auto", "events" (refused where forces act) or "steps".
+/// Sets in the system what --engine asks for: "auto", "events" (refused where forces act) or
+/// "steps".
 void choose_engine(const std::string& engine, System&);
 /// What moves the particles: "events" (exact flights), "steps" (integration) or "auto" (both).
 std::string engine_of(const System&);

@@ -49,6 +49,7 @@ int end_by_closed_pipe() {
   return 128 + SIGPIPE;
 }
 
+// Each is in commands/, or in the command.cpp of its analysis.
 int (*command_of(const std::string& name))(const Options&) {
   using namespace carom::cli;
   static const std::pair<const char*, int (*)(const Options&)> commands[] = {

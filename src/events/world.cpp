@@ -155,7 +155,7 @@ std::uint64_t World::run_until(double t_end, Observer& observer,
         if (samples.any()) samples.emit(when, false, observer);
         if (interrupt.stopped()) return events;
       }
-      if (alone) {
+      if (alone) {  // as far as its hits are plain; none where the table has holes
         const std::uint64_t unasked = between_questions + 1 - (events & between_questions);
         const std::uint64_t hits = flights.apply_hits(index, t_end, unasked, observer);
         events += hits;

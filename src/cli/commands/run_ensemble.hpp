@@ -145,7 +145,7 @@ Result fly(const Options& options, const System& system, EnsembleOptions<Result>
                      : files::with_prefix(static_cast<double>(trajectories) / progress.seconds()) +
                            "trajectories/s");
     };
-  return flown(system, how);
+  return flown(system, how);  // run_escape in analyses/escape/escape.cpp, and its likes
 }
 
 inline SplittingOptions how_to_complete(const Options& options) {

@@ -128,7 +128,8 @@ class FreeLanes::Implementation {
     return (used + kernels.width - 1) / kernels.width * kernels.width;
   }
 
-  /// Puts the next trajectory into a lane.
+  /// Puts the next trajectory into a lane. The kernel `on_walls` may fly only particles that are on
+  /// a wall: then others make their first hit in the entrance, by the kernel `anywhere`.
   void fill(int lane) {
     if (kernels.on_walls == kernels.anywhere) {
       begin(main, lane);
@@ -373,7 +374,7 @@ class FreeLanes::Implementation {
       end_after_hit(lanes, lane);
       return false;
     }
-    if (scalar.fate() == Fate::capped && mine.start.hits < limit) {
+    if (scalar.fate() == Fate::capped && mine.start.hits < limit) {  // it has made its one hit
       if (mine.start.state.u > geometry::first_parameter) {
         resume(lanes, lane);
         return true;
@@ -391,8 +392,7 @@ class FreeLanes::Implementation {
   const std::function<bool()>* stop = nullptr;
   bool stopped = false;
   FilledPack main;
-  /// Used where particles are not born on walls and `on_walls` cannot fly them.
-  FilledPack entrance;
+  FilledPack entrance;  ///< see fill
   LanePack search_pack;
   LaneEnd end_in_lanes;  ///< of the latest trajectory that did not end by the scalar engine
   int waiting = 0;       ///< the next lane of the entrance that may wait

@@ -12,7 +12,7 @@ enum class Call : unsigned char {
   undecided,  ///< a decision that the scalar engine must take; nothing has changed
   over,  ///< the next hit, at the time in `met`, comes after `until`; nothing has changed but which
          ///< disc was looked for
-  escaped,    ///< `met` holds hole and time; nothing has changed
+  escaped,    ///< `met` holds the piece, a hole, and the time; nothing has changed
   unbounded,  ///< no wall follows; nothing has changed
   capped      ///< its last hit is made
 };
@@ -76,7 +76,7 @@ struct LanePack {
   Call call[lanes] = {};
   struct Met {
     double piece = 0.0, high = 0.0, low = 0.0;
-  } met[lanes] = {};  ///< of each call `escaped`
+  } met[lanes] = {};  ///< of each call
 };
 
 /// Flies every active lane to its next hit and reflects it there, or leaves a call.
