@@ -23,7 +23,7 @@ inline Pair magnitude(Pair x) {
 inline Pair smaller(Pair a, Pair b) { return a < b ? a : b; }
 inline Pair larger(Pair a, Pair b) { return a > b ? a : b; }
 /// The second of one pair and the first of the next.
-inline Pair between(Pair a, Pair b) { return Pair{a[1], b[0]}; }
+inline Pair between(Pair a, Pair b) { return __builtin_shufflevector(a, b, 1, 2); }
 /// Numbers i and i + 1.
 template <std::size_t size>
 Pair pair_at(const std::array<double, size>& numbers, std::size_t i) {
@@ -35,6 +35,18 @@ Pair pair_at(const std::array<double, size>& numbers, std::size_t i) {
 inline Pair keep_if(bool condition, Pair x) {
   const PairMask mask = PairMask{} - static_cast<decltype(PairMask{}[0] + 0)>(condition);
   return reinterpret_cast<Pair>(reinterpret_cast<PairMask>(x) & mask);
+}
+/// The numbers where the mask is true, elsewhere zero.
+inline Pair keep_if(PairMask mask, Pair x) {
+#if defined(__SSE2__)
+  return _mm_and_pd(reinterpret_cast<Pair>(mask), x);
+#else
+  return reinterpret_cast<Pair>(reinterpret_cast<PairMask>(x) & mask);
+#endif
+}
+/// The bits of both numbers together, of which one is zero.
+inline Pair either_bits(Pair a, Pair b) {
+  return reinterpret_cast<Pair>(reinterpret_cast<PairMask>(a) | reinterpret_cast<PairMask>(b));
 }
 /// The sign bits (of a mask: its truth), the first lane's lowest.
 inline unsigned signs(Pair x) {

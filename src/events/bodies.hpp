@@ -74,16 +74,26 @@ class Bodies {
   /// Most hits a body may make.
   void limit_hits(std::uint64_t most) { limit_ = most; }
   bool reaches_limit(const Body& b) const { return b.hits >= limit_; }
-  bool next_reaches_limit(const Body& b) const { return b.hits + 1 >= limit_; }
+  /// Hits that a body may make before the one with which it reaches that.
+  std::uint64_t hits_below_limit(const Body& b) const {
+    return b.hits + 1 < limit_ ? limit_ - 1 - b.hits : 0;
+  }
   /// Counts a hit after which the body has that state, on the wall. `flight_time`: since its last
   /// event.
   const HitEvent& count_hit(int i, Body& b, const State& after, const geometry::Vector& before,
                             double flight_time, int reflections);
+  /// The same for one hit of many by the same body, each with one reflection: `expect_hits` first.
+  /// `changes_cell`: where a hit may be in another cell than the one before.
+  void expect_hits(int i, geometry::Cell cell);
+  template <bool changes_cell>
+  const HitEvent& count_expected(Body& b, const geometry::Vector& before, double flight_time);
   /// Ends the trajectory of a free body. `why`: for its report.
   void end(int i, Fate fate, Time time, Observer& observer, std::string_view why = {});
 
  private:
   static State state_in_group(const Body& b);
+  const HitEvent& fill_event(const State& after, const geometry::Vector& before,
+                             double flight_time);
 
   std::vector<Body> bodies_;
   EventQueue queue_;
@@ -92,13 +102,9 @@ class Bodies {
 };
 
 /// Number by number, so that no number waits for another.
-[[gnu::always_inline]] inline const HitEvent& Bodies::count_hit(int i, Body& b, const State& after,
-                                                                const geometry::Vector& before,
-                                                                double flight_time,
-                                                                int reflections) {
-  b.hits += static_cast<std::uint64_t>(reflections);
-  b.last_wall = after.wall;
-  event_.particle = i;
+[[gnu::always_inline]] inline const HitEvent& Bodies::fill_event(const State& after,
+                                                                 const geometry::Vector& before,
+                                                                 double flight_time) {
   event_.wall = after.wall;
   event_.u = after.u;
   event_.time.high = after.time.high;
@@ -106,14 +112,43 @@ class Bodies {
   event_.flight_time = flight_time;
   event_.position.x = after.position.x;
   event_.position.y = after.position.y;
-  event_.cell.first = after.cell.first;
-  event_.cell.second = after.cell.second;
   event_.before.x = before.x;
   event_.before.y = before.y;
   event_.after.x = after.velocity.x;
   event_.after.y = after.velocity.y;
-  event_.reflections = reflections;
   return event_;
+}
+
+[[gnu::always_inline]] inline const HitEvent& Bodies::count_hit(int i, Body& b, const State& after,
+                                                                const geometry::Vector& before,
+                                                                double flight_time,
+                                                                int reflections) {
+  b.hits += static_cast<std::uint64_t>(reflections);
+  b.last_wall = after.wall;
+  event_.particle = i;
+  event_.reflections = reflections;
+  event_.cell.first = after.cell.first;
+  event_.cell.second = after.cell.second;
+  return fill_event(after, before, flight_time);
+}
+
+inline void Bodies::expect_hits(int i, geometry::Cell cell) {
+  event_.particle = i;
+  event_.cell = cell;
+  event_.reflections = 1;
+}
+
+template <bool changes_cell>
+[[gnu::always_inline]] inline const HitEvent& Bodies::count_expected(Body& b,
+                                                                     const geometry::Vector& before,
+                                                                     double flight_time) {
+  ++b.hits;
+  b.last_wall = b.state.wall;
+  if constexpr (changes_cell) {
+    event_.cell.first = b.state.cell.first;
+    event_.cell.second = b.state.cell.second;
+  }
+  return fill_event(b.state, before, flight_time);
 }
 
 }  // namespace carom::events

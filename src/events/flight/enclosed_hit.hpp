@@ -27,22 +27,17 @@ inline constexpr double least_square = 0x1p-900;
 /// Without field.
 [[gnu::always_inline]] inline bool HitFinder::line_in_enclosure(const Flight& f,
                                                                 Ahead& ahead) const {
-  using geometry::Vector;
-  const Vector v = f.velocity, origin = f.start;
-  // Half the error of side_of_flight, for the distance of the farthest joint.
-  const double bound =
-      t_.options.filter_inflation * 1.005 * norm_1(v) * (f.start_error + t_.enclosure_rounding);
+  const double bound = norm_1(f.velocity) * t_.side_bound;
   if (t_.enclosure.meets_all()) {
-    Enclosure::Meeting met[Enclosure::most_met / 2];
-    const int wall = t_.enclosure.exit_of_line<true>(origin, v, bound, met);
-    if (wall < 0 || wall == t_.enclosure.size()) return false;
-    const unsigned number = static_cast<unsigned>(wall), of = number % 2;
-    const Enclosure::Meeting& m = met[number / 2];
-    return put(wall, m.duration[of], m.unit[of] / m.time[of], ahead);
+    double duration;
+    const int wall = t_.enclosure.exit_of_line(f.start, f.velocity, bound, duration);
+    if (wall < 0 || wall == t_.enclosure.size() || !put(wall, duration, ahead)) return false;
+    ahead.kappa = kappa_of_line(f, wall);
+    return true;
   }
   int wall = 0;
   if (t_.enclosure.size() > 1) {
-    wall = t_.enclosure.exit_of_line(origin, v, bound);
+    wall = t_.enclosure.exit_of_line(f.start, f.velocity, bound);
     if (wall < 0) return false;
     if (wall == t_.enclosure.size()) {  // all joints on one side: through the arc that it is on
       wall = f.start_piece;
@@ -53,15 +48,20 @@ inline constexpr double least_square = 0x1p-900;
 }
 
 /// A hit on a wall. False: too short a way for doubles.
-[[gnu::always_inline]] inline bool HitFinder::put(int wall, double duration, double kappa,
-                                                  Ahead& ahead) {
+[[gnu::always_inline]] inline bool HitFinder::put(int wall, double duration, Ahead& ahead) {
   if (!(duration > 0.0 && duration < HUGE_VAL)) return false;
   ahead.kind = Ahead::Kind::wall;
   ahead.piece = wall;
   ahead.root = 0;
-  ahead.kappa = kappa;
   ahead.duration = duration;
   return true;
+}
+
+/// Kappa of a hit on a segment.
+[[gnu::always_inline]] inline double HitFinder::kappa_of_line(const Flight& f, int wall) const {
+  const geometry::PreparedCurve& w = t_.curves[static_cast<std::size_t>(wall)];
+  return -geometry::fused_cross(w.tangent, f.velocity) /
+         geometry::fused_cross(w.tangent, f.start - w.from);
 }
 
 /// The hit of a line on the wall that it leaves through; of conics those about the domain.
@@ -88,7 +88,8 @@ inline constexpr double least_square = 0x1p-900;
     const double n = std::fabs(q.b) + (on_wall ? std::fabs(q.b) : std::sqrt(discriminant_of(q)));
     found = detail::quotients(-q.b, base::Pair{-q.a, n}, base::Pair{n, q.c});
   }
-  return put(wall, found[0], found[1], ahead);
+  ahead.kappa = found[1];
+  return put(wall, found[0], ahead);
 }
 
 /// A Larmor circle against segments and circular arcs.
@@ -203,7 +204,8 @@ inline constexpr double least_square = 0x1p-900;
 /// The same on any piece, at a fraction of time.
 [[gnu::always_inline]] inline bool HitFinder::put(int piece, Ahead::Kind kind, const Quotient& at,
                                                   Ahead& ahead) {
-  if (!put(piece, at.time / at.unit, at.unit / at.time, ahead)) return false;
+  if (!put(piece, at.time / at.unit, ahead)) return false;
+  ahead.kappa = at.unit / at.time;
   ahead.kind = kind;
   return true;
 }
@@ -240,6 +242,16 @@ inline constexpr double least_square = 0x1p-900;
                                     : t_.without_ellipses && circle_in_enclosure(f, ahead);
   if (found) ++counts.filter;
   return found;
+}
+
+[[gnu::always_inline]] inline bool HitFinder::next_in_four(const Flight& f, Ahead& ahead,
+                                                           DecisionCounts& counts) const {
+  double duration;
+  const double bound = norm_1(f.velocity) * t_.side_bound;
+  const int wall = t_.enclosure.exit_of_four(f.start, f.velocity, bound, duration);
+  if (wall < 0 || wall == t_.enclosure.size() || !put(wall, duration, ahead)) return false;
+  ++counts.filter;
+  return true;
 }
 
 [[gnu::always_inline]] inline void HitFinder::next(const Flight& flight, Ahead& ahead,

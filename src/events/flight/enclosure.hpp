@@ -3,6 +3,7 @@
 // guesses worst. docs/physics/exactness.md derives the rules and the bounds.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -16,8 +17,8 @@ namespace carom::events {
 class Enclosure {
  public:
   static constexpr int undecided = -1;
-  static constexpr int most = 32;     ///< walls
-  static constexpr int most_met = 8;  ///< walls that meets_all
+  static constexpr int most = 32;  ///< walls
+  static constexpr int few = 8;    ///< walls, for which some things are quicker
 
   /// Adds the wall that starts at `from`; a bent one has no tangent.
   void add(geometry::Vector from, geometry::Vector tangent, double length, bool bent) {
@@ -36,7 +37,9 @@ class Enclosure {
     if (bent) bent_ |= std::uint64_t{1} << i;
     ++size_;
     all_ = (std::uint64_t{1} << size_) - 1;
-    few_segments_ = bent_ == 0 && 1 < size_ && size_ <= most_met;
+    for (std::uint64_t right = 0; size_ <= few && right <= all_; ++right)
+      exits_[right] = static_cast<unsigned char>(exit_between(right));
+    meets_all_ = bent_ == 0 && 1 < size_ && size_ <= few;
   }
   /// Bounds the l1 distance between two points of the loop.
   void set_diameter(double d) { diameter_ = d; }
@@ -49,48 +52,63 @@ class Enclosure {
     std::uint64_t joints = 0;
     bool decided = false;
   };
-  /// Where a line meets those of two walls that are segments: time / unit after its start.
-  struct Meeting {
-    base::Pair time, unit, duration;
-  };
-  /// Are all walls segments, and so few that to meet all of them takes less long than to wait until
-  /// it is known which is the exit?
-  bool meets_all() const { return few_segments_ && base::fuses(); }
-  /// `meets`: `met` is filled in with the meetings with all walls.
-  template <bool meets = false>
   [[gnu::always_inline]] Right right_of_line(geometry::Vector origin, geometry::Vector v,
-                                             double bound, Meeting* met = nullptr) const {
-    const Vectors from{base::both(origin.x), base::both(origin.y)},
-        velocity{base::both(v.x), base::both(v.y)};
+                                             double bound) const {
+    const Vectors from = in_both(origin), velocity = in_both(v);
     base::Pair least = base::both(HUGE_VAL);
     std::uint64_t right = 0;
     int shift = 0;
     for (const Two& w : walls_) {
-      const Vectors way = w.from - from;
-      if constexpr (meets) {
-        base::fuses_surely();
-        met->time = geometry::fused_cross(w.tangent, way);
-        met->unit = geometry::fused_cross(w.tangent, velocity);
-        met->duration = met->time / met->unit;
-        ++met;
-      }
-      const base::Pair side = cross(velocity, way);
+      const base::Pair side = cross(velocity, w.from - from);
       least = base::smaller(base::magnitude(side), least);
       right |= static_cast<std::uint64_t>(base::signs(side)) << shift;
       shift += 2;
     }
-    const bool decided = (least[0] > bound) & (least[1] > bound);
-    return {right & all_, decided};
+    return {right & all_, all_beyond(bound, least)};
   }
   /// A line leaves a convex loop between a joint on its right and the next one on its left; size():
   /// all lie on one side.
-  template <bool meets = false>
+  [[gnu::always_inline]] int exit_of_line(geometry::Vector origin, geometry::Vector v,
+                                          double bound) const {
+    const auto [right, decided] = right_of_line(origin, v, bound);
+    return decided ? exit_of(right) : undecided;
+  }
+
+  /// Are all walls segments, and so few that to meet all of them takes less long than to wait until
+  /// it is known which is the exit?
+  bool meets_all() const { return meets_all_ && base::fuses(); }
+  /// As exit_of_line, of a loop that meets_all, and the time until the line meets the exit's.
   [[gnu::always_inline]] int exit_of_line(geometry::Vector origin, geometry::Vector v, double bound,
-                                          Meeting* met = nullptr) const {
-    const auto [right, decided] = right_of_line<meets>(origin, v, bound, met);
-    if (!decided) return undecided;
-    return std::countr_zero((right & ~(right >> 1 | right << (size_ - 1))) | std::uint64_t{1}
-                                                                                 << size_);
+                                          double& duration) const {
+    const Vectors from = in_both(origin), velocity = in_both(v);
+    base::Pair durations[few / 2], least = base::both(HUGE_VAL);
+    std::uint64_t right = 0;
+    for (std::size_t i = 0; i < walls_.size(); ++i) {
+      const Meeting here = meet(walls_[i], from, velocity);
+      durations[i] = here.duration;
+      least = base::smaller(base::magnitude(here.side), least);
+      right |= static_cast<std::uint64_t>(base::signs(here.side)) << 2 * i;
+    }
+    if (!all_beyond(bound, least)) return undecided;
+    const int exit = exits_[right & all_];
+    if (exit != size_) duration = reinterpret_cast<const double*>(durations)[exit];
+    return exit;
+  }
+  /// Has it three or four walls, and meets_all?
+  bool meets_four() const { return meets_all() && walls_.size() == 2; }
+  /// The same of such a loop. By masks: a number that was just stored in a pair is waited for.
+  [[gnu::always_inline]] int exit_of_four(geometry::Vector origin, geometry::Vector v, double bound,
+                                          double& duration) const {
+    const Vectors from = in_both(origin), velocity = in_both(v);
+    const Meeting one = meet(walls_[0], from, velocity), two = meet(walls_[1], from, velocity);
+    const base::PairMask in_one = (one.side < 0.0) & (base::between(one.side, two.side) > 0.0),
+                         in_two = (two.side < 0.0) & (base::between(two.side, one.side) > 0.0);
+    const base::Pair exit =
+        base::either_bits(base::keep_if(in_one, one.duration), base::keep_if(in_two, two.duration));
+    duration = base::either_bits(exit, base::between(exit, exit))[0];
+    if (!all_beyond(bound, base::smaller(base::magnitude(one.side), base::magnitude(two.side))))
+      return undecided;
+    return exits_[(base::signs(one.side) | base::signs(two.side) << 2) & all_];
   }
 
   /// The walls that may be the first through which a Larmor circle leaves that starts on the wall
@@ -154,19 +172,42 @@ class Enclosure {
   }
 
  private:
-  /// Bit i of the result is bit i + by.
-  std::uint64_t rotated(std::uint64_t bits, int by) const {
-    return (bits >> by | bits << (size_ - by)) & all_;
-  }
   using Vectors = geometry::BasicVector<base::Pair>;
   struct Two {
     Vectors from, tangent;
     base::Pair length;
   };
+
+  int exit_between(std::uint64_t right) const {
+    return std::countr_zero((right & ~(right >> 1 | right << (size_ - 1))) | std::uint64_t{1}
+                                                                                 << size_);
+  }
+  static Vectors in_both(geometry::Vector x) { return {base::both(x.x), base::both(x.y)}; }
+  struct Meeting {
+    base::Pair duration, side;
+  };
+  [[gnu::always_inline]] static Meeting meet(const Two& walls, Vectors from, Vectors velocity) {
+    const Vectors way = walls.from - from;
+    base::fuses_surely();
+    return {
+        geometry::fused_cross(walls.tangent, way) / geometry::fused_cross(walls.tangent, velocity),
+        cross(velocity, way)};
+  }
+  static bool all_beyond(double bound, base::Pair x) {
+    return base::signs(x > base::both(bound)) == 3;
+  }
+  [[gnu::always_inline]] int exit_of(std::uint64_t right) const {
+    return size_ <= few ? exits_[right] : exit_between(right);
+  }
+  /// Bit i of the result is bit i + by.
+  std::uint64_t rotated(std::uint64_t bits, int by) const {
+    return (bits >> by | bits << (size_ - by)) & all_;
+  }
   std::vector<Two> walls_;
+  std::array<unsigned char, 1 << few> exits_{};  ///< of few walls: exit_between, by the joints
   std::uint64_t bent_ = 0, all_ = 0;
   int size_ = 0;
-  bool few_segments_ = false;
+  bool meets_all_ = false;
   double diameter_ = 0.0;
 };
 

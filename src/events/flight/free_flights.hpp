@@ -108,7 +108,10 @@ class FreeFlights {
   }
   static void put_on_wall(Body& b, int wall, Time now, const geometry::PreparedCurve::Arrival& at,
                           geometry::Vector velocity);
-  template <bool larmor, bool cells>
+  enum class Alone;
+  template <Alone alone>
+  void finish_hits(int index, Body& b, Ahead ahead, DecisionCounts counts, std::uint64_t hits);
+  template <Alone alone>
   std::uint64_t apply_hits(int index, double t_end, std::uint64_t most, Observer& observer);
   /// The flight begins at the body's state on a wall; it stays in its cell.
   void begin_off_joints(Body& b) const {

@@ -35,6 +35,9 @@ class HitFinder {
   }
   /// The first half of this: in a convex table with nothing in it, where the filter can tell.
   bool next_in_convex(const Flight& flight, Ahead& ahead, DecisionCounts& counts) const;
+  /// The same without field, off the joints of a table whose enclosure meets_four; without kappa.
+  bool next_in_four(const Flight& flight, Ahead& ahead, DecisionCounts& counts) const;
+  double kappa_of_line(const Flight& flight, int wall) const;
   /// The other half.
   void next_in_any(const Flight& flight, Ahead& ahead, DecisionCounts& counts);
   /// That where discs stand in a lattice's cell and touch none of its edges: a straight flight is
@@ -83,7 +86,7 @@ class HitFinder {
   Sign meets_one_disc(const Flight& flight, const Origin& origin, int& met, Quotient& at) const;
   int exit_of_enclosure(const Flight& flight, const Origin& origin) const;
   static bool put(int piece, Ahead::Kind kind, const Quotient& at, Ahead& ahead);
-  static bool put(int wall, double duration, double kappa, Ahead& ahead);
+  static bool put(int wall, double duration, Ahead& ahead);
   void next_by_signs(const Flight& flight, Ahead& ahead, DecisionCounts& counts);
 
   // Tables of many walls (grid_hit.cpp).

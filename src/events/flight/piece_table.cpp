@@ -320,13 +320,18 @@ void PieceTable::Preparation::find_enclosure(bool complement) {
   for (const int disc : discs) made_.discs_within &= data[at(disc)].within;
   if (!made_.convex) return;
   Box box = bounding_box(table_.walls.front().curve);
+  double start_error = 0.0;
   made_.without_ellipses = true;
   for (const int i : loop) {
     made_.without_ellipses &= data[at(i)].kind != CurveKind::ellipse;
     box = hull(box, bounding_box(table_.walls[at(i)].curve));
+    start_error = std::max(start_error, data[at(i)].shape->point_error);
   }
   made_.enclosure.set_diameter(1.01 * norm_1(box.high - box.low));
   made_.enclosure_rounding = 4.1 * unit_roundoff * made_.enclosure.diameter();
+  // Half the error of side_of_flight, for the farthest joint.
+  made_.side_bound =
+      made_.options.filter_inflation * 1.005 * (start_error + made_.enclosure_rounding);
 }
 
 /// Lines that have the same joints on their right can be moved into each other without passing one,

@@ -120,11 +120,16 @@ constexpr BasicVector<Number> conic_direction(const Frame<Number>& f, const Numb
   return x * b - y * a;
 }
 
+/// Parameter of a point on the line of a segment.
+template <class Number>
+constexpr Number line_parameter(const Frame<Number>& f, const BasicVector<Number>& point) {
+  return dot(f.along, point - f.origin);
+}
 /// Parameter of a point on a segment, clamped to [first, f.last].
 template <class Number>
 constexpr Number segment_parameter(const Frame<Number>& f, const BasicVector<Number>& point,
                                    const Number& first) {
-  const Number u = dot(f.along, point - f.origin);
+  const Number u = line_parameter(f, point);
   return detail::choose(u < first, first, detail::choose(u > f.last, f.last, u));
 }
 

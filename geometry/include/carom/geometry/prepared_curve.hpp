@@ -86,8 +86,8 @@ struct alignas(64) PreparedCurve {
   /// `u`: of a Bézier curve, where the flight meets it.
   [[gnu::always_inline]] void arrive(Vector x, Vector v, Arrival& a, double u = 0.0) const {
     if (landing == LandingKind::segment) {
-      set(a, settle_on_segment(x));
-      a.factor = 2.0 * fused_dot(v, a.normal);  // of a unit vector
+      if (arrive_on_segment(x, v, a)) [[likely]]
+        return;
       a.u = segment_parameter(parametrisation, a.point, first_parameter);
     } else {
       if (landing == LandingKind::circle)
@@ -100,6 +100,13 @@ struct alignas(64) PreparedCurve {
     }
     if (!(a.u > first_parameter && a.u < last())) [[unlikely]]
       reflect_by(frame(a.u), v, a);  // put there, off the joints
+  }
+  /// The same on a segment. False: it is to be put there, off a joint.
+  [[gnu::always_inline]] bool arrive_on_segment(Vector x, Vector v, Arrival& a) const {
+    set(a, settle_on_segment(x));
+    a.factor = 2.0 * fused_dot(v, a.normal);  // of a unit vector
+    a.u = line_parameter(parametrisation, a.point);
+    return a.u > first_parameter && a.u < last();
   }
   Frame frame(double u) const {
     if (landing > LandingKind::ellipse) return frame_at(u);
