@@ -76,8 +76,8 @@ void add_equilibria(std::vector<Case>& cases) {
   const std::tuple<const char*, const char*, double> modes[] = {
       {"wigner: breathing mode", "sqrt(3) omega, omega^2 = 2", std::sqrt(6.0)},
       {"wigner: centre of mass", "omega, omega^2 = 2", std::sqrt(2.0)}};
-  for (const auto& [name, source, expected] : modes)
-    cases.push_back({name, source, {}, [expected = expected](const CheckOptions& options) {
+  for (const auto& [name, source, value] : modes)
+    cases.push_back({name, source, {}, [expected = value](const CheckOptions& options) {
                        return lowest(
                            wigner(5), expected, 0.0,
                            [&](const Equilibrium& e) {

@@ -204,7 +204,9 @@ std::pair<Vector, double> middle_of_cell(const geometry::Lattice& lattice) {
 /// harm, so lengths are taken with some room.
 std::vector<geometry::Cell> cells_within(const Table& table, double reach) {
   const geometry::Lattice& lattice = *table.lattice;
-  const auto [middle, corner] = middle_of_cell(lattice);
+  const std::pair<Vector, double> around = middle_of_cell(lattice);
+  const Vector middle = around.first;
+  const double corner = around.second;
   double most = 0.0;
   for (const Wall& wall : table.walls) {
     const PreparedCurve w(wall.curve);
@@ -223,13 +225,11 @@ std::vector<geometry::Cell> cells_within(const Table& table, double reach) {
     for (auto j = -static_cast<std::int64_t>(second); j <= static_cast<std::int64_t>(second); ++j) {
       const geometry::Cell cell{i, j};
       const Vector way = lattice.translation(cell);
-      const bool near = std::any_of(table.walls.begin(), table.walls.end(),
-                                    [&, middle = middle, corner = corner](const Wall& wall) {
-                                      const PreparedCurve w(wall.curve);
-                                      const Vector d = w.centre + way - middle;
-                                      return std::sqrt(dot(d, d)) <
-                                             (reach + std::sqrt(w.r2) + corner) * (1.0 + 0x1p-20);
-                                    });
+      const bool near = std::any_of(table.walls.begin(), table.walls.end(), [&](const Wall& wall) {
+        const PreparedCurve w(wall.curve);
+        const Vector d = w.centre + way - middle;
+        return std::sqrt(dot(d, d)) < (reach + std::sqrt(w.r2) + corner) * (1.0 + 0x1p-20);
+      });
       if (near && (i != 0 || j != 0)) cells.push_back(cell);
     }
   return cells;
