@@ -65,6 +65,7 @@ InLanes::InLanes(const System& system, const EngineOptions& options, const World
     : system_(system), options_(options), world_(like.empty_copy()), lanes_(std::move(lanes)) {
   end_of_one_.particles.resize(1);
   if (system.run.collisions > 0) lanes_->limit_hits(system.run.collisions);
+  if (!options_.end_states) lanes_->omit_end_states();
   if (!options_.times.empty())
     lanes_->sample_at(options_.times, [this](std::uint64_t tag, std::size_t number,
                                              const State& state) {
@@ -132,7 +133,7 @@ void InLanes::note(const LaneEnd& end) {
   const bool to_the_end = end.fate == Fate::survived || end.fate == Fate::pinned;
   mine.fate = end.fate;
   mine.time = to_the_end ? options_.t_end : end.time.value();
-  motion::take(mine.state, end.state);
+  if (options_.end_states) motion::take(mine.state, end.state);
   mine.hole = end.hole;
   mine.hits = end.hits;
   mine.last_wall = end.last_wall;

@@ -30,6 +30,7 @@ class ParticleHash {
   explicit ParticleHash(const System& system)
       : of_states_(system.is_integrated() || system.of_discs()) {}
 
+  bool of_states() const { return of_states_; }
   /// `end_time`: t_max of survivors; `state`: after the last event; `samples`: at the report times
   /// before the end.
   std::uint64_t operator()(std::uint64_t index, Fate fate, double end_time, std::uint64_t hits,

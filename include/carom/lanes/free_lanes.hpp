@@ -35,6 +35,7 @@ class FreeLanes : public Lanes {
   void run_until(double t_end, const std::function<bool(LaneStart&)>& next,
                  const std::function<void(const LaneEnd&)>& ended,
                  const std::function<bool()>& interrupted = {}) override;
+  void omit_end_states() override;
   DecisionCounts decisions() const override;
   const LaneEffort& effort() const override;
 

@@ -74,6 +74,9 @@ class Lanes {
                          const std::function<void(const LaneEnd&)>& ended,
                          const std::function<bool()>& interrupted = {}) = 0;
 
+  /// From now on ends need no states.
+  virtual void omit_end_states() {}
+
   virtual DecisionCounts decisions() const = 0;
   virtual const LaneEffort& effort() const = 0;
 };

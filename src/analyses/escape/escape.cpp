@@ -46,8 +46,10 @@ class EscapeListener : public engines::EnsembleListener<EscapeResult> {
     Block& block = *under_way_[t.slot];
     EscapeResult& sum = block.part;
     engines::EnergiesSeen energies;
-    if (watch_.watches()) energies = energies_[t.slot].end(t, end);
-    sum.counts.energy_change = larger(sum.counts.energy_change, energies.change);
+    if (watch_.watches()) {
+      energies = energies_[t.slot].end(t, end);
+      sum.counts.energy_change = larger(sum.counts.energy_change, energies.change);
+    }
     add_end(sum, sum.counts.contacts, end, energies.error);
     std::uint64_t hits = 0;
     for (std::size_t p = 0; p < end.particles.size(); ++p) {
@@ -107,8 +109,11 @@ EscapeResult run_escape(const System& system, const EscapeOptions& options) {
   EscapeResult nothing;
   nothing.counts =
       SurvivalCounts(system.run.times, hole_names(*system.table).size(), system.quasi_random());
+  EngineOptions engine_options{.t_end = system.run.t_max};
+  engine_options.end_states = (options.journal && options.journal->wants_records()) ||
+                              engines::ParticleHash(system).of_states();
   return engines::fly_blocks<EscapeResult>(
-      system, system, options, nothing, {.t_end = system.run.t_max},
+      system, system, options, nothing, engine_options,
       [&](const Engine& engine, EscapeListener::Thread& thread) {
         return EscapeListener(system, engine, thread, nothing.counts);
       });

@@ -115,6 +115,7 @@ class FreeLanes::Implementation {
   std::vector<double> times;  ///< to report at
   Sampled sampled;
   Hit hit;
+  bool end_states = true;
   std::uint64_t filter = 0;
   LaneEffort effort;
 
@@ -284,19 +285,24 @@ class FreeLanes::Implementation {
   /// A lane's last event on its wall.
   void on_wall(const FilledPack& lanes, int lane, State& s) const {
     lanes.last_event(lane, s);
-    s.wall = static_cast<int>(pieces.wall[static_cast<int>(lanes.pack.piece[lane])]);
+    s.wall = wall_of(lanes, lane);
     s.u = walls.curve(s.wall).parameter(s.position);
+  }
+  int wall_of(const FilledPack& lanes, int lane) const {
+    return static_cast<int>(pieces.wall[static_cast<int>(lanes.pack.piece[lane])]);
+  }
+  /// A lane's hits; false: it has made none.
+  bool take_hits(FilledPack& lanes, int lane) {
+    LaneTrajectory& mine = lanes.trajectory(lane);
+    const auto hits = static_cast<std::uint64_t>(lanes.pack.hits(lane));
+    effort.hits += hits - mine.start.hits;
+    filter += 2 * (hits - mine.start.hits);  // which wall, and which way the velocity points
+    return std::exchange(mine.start.hits, hits) != hits;
   }
   /// The lane's numbers as a state.
   void take_out(FilledPack& lanes, int lane) {
-    const LanePack& pack = lanes.pack;
-    LaneTrajectory& mine = lanes.trajectory(lane);
-    const auto hits = static_cast<std::uint64_t>(pack.hits(lane));
-    effort.hits += hits - mine.start.hits;
-    filter += 2 * (hits - mine.start.hits);  // which wall, and which way the velocity points
-    if (hits == mine.start.hits) return;
-    mine.start.hits = hits;
-    on_wall(lanes, lane, mine.start.state);
+    if (!take_hits(lanes, lane)) return;
+    on_wall(lanes, lane, lanes.trajectory(lane).start.state);
     if (tangents.any()) tangents.take(lanes, lane);
   }
 
@@ -325,17 +331,23 @@ class FreeLanes::Implementation {
         return true;
       }
     }
-    take_out(lanes, lane);
     // A hit at exactly the awaited time is decided by the scalar engine.
-    if (call == Call::undecided || (call == Call::over && !survives)) return go_on(lanes, lane);
-    const State& s = mine.start.state;
-    ++filter;
+    if (call == Call::undecided || (call == Call::over && !survives)) {
+      take_out(lanes, lane);
+      return go_on(lanes, lane);
+    }
     LaneEnd& end = end_in_lanes;  // used again: it has no report and no steps
+    if (end_states || tangents.any()) {
+      take_out(lanes, lane);
+      motion::take(end.state, mine.start.state);
+    } else if (take_hits(lanes, lane)) {
+      mine.start.state.wall = wall_of(lanes, lane);
+    }
+    ++filter;
     end.tag = mine.start.tag;
     end.fate = Fate::survived;
-    end.time.high = s.time.high;
-    end.time.low = s.time.low;
-    motion::take(end.state, s);
+    end.time.high = lanes.pack.high[lane];
+    end.time.low = lanes.pack.low[lane];
     end.hole = -1;
     end.hits = mine.start.hits;
     end.last_wall = mine.last_wall();
@@ -433,6 +445,7 @@ void FreeLanes::run_until(double t_end, const std::function<bool(LaneStart&)>& n
                           const std::function<bool()>& interrupted) {
   implementation_->run_until(t_end, next, ended, interrupted);
 }
+void FreeLanes::omit_end_states() { implementation_->end_states = false; }
 DecisionCounts FreeLanes::decisions() const { return implementation_->decisions(); }
 const LaneEffort& FreeLanes::effort() const { return implementation_->effort; }
 
