@@ -47,6 +47,9 @@ class InLanes : public Engine {
   }
   static std::size_t particle_of(std::uint64_t tag) { return tag & 0xffffffff; }
   Flight& flight(std::uint64_t tag) { return *flights_[tag >> 32]; }
+  Trajectory& begun_trajectory() {
+    return options_.states ? flights_[latest_]->trajectory : without_states_;
+  }
 
   const System& system_;
   const EngineOptions options_;
@@ -54,7 +57,8 @@ class InLanes : public Engine {
   std::unique_ptr<Lanes> lanes_;
   Listener* listener_ = nullptr;
   std::vector<std::unique_ptr<Flight>> flights_;  ///< by slot
-  TrajectoryEnd end_of_one_;  ///< of the latest trajectory of one particle: always at hand
+  TrajectoryEnd end_of_one_;   ///< of the latest trajectory of one particle: always at hand
+  Trajectory without_states_;  ///< the latest, where states are of no interest: always at hand
   std::vector<std::size_t> free_;
   std::size_t latest_ = 0,
               begun_ = 0;  ///< the latest flight, and how many of its particles are in lanes
@@ -65,7 +69,7 @@ InLanes::InLanes(const System& system, const EngineOptions& options, const World
     : system_(system), options_(options), world_(like.empty_copy()), lanes_(std::move(lanes)) {
   end_of_one_.particles.resize(1);
   if (system.run.collisions > 0) lanes_->limit_hits(system.run.collisions);
-  if (!options_.end_states) lanes_->omit_end_states();
+  if (!options_.states) lanes_->omit_end_states();
   if (!options_.times.empty())
     lanes_->sample_at(options_.times, [this](std::uint64_t tag, std::size_t number,
                                              const State& state) {
@@ -96,7 +100,7 @@ bool InLanes::run(Starts& starts, Listener& listener, const std::function<bool()
     if (begun_ == each() && !begin(starts)) return false;
     start.tag = tag_of(latest_, begun_);
     start.particle = system_.particles[begun_];
-    motion::take(start.state, flights_[latest_]->trajectory.starts[begun_++]);
+    motion::take(start.state, begun_trajectory().starts[begun_++]);
     start.hits = 0;
     return true;
   };
@@ -113,7 +117,8 @@ bool InLanes::begin(Starts& starts) {
   }
   latest_ = free_.back();
   Flight& flight = *flights_[latest_];
-  if (!starts.next(flight.trajectory, world_)) return false;
+  if (!starts.next(begun_trajectory(), world_)) return false;
+  if (!options_.states) flight.trajectory.number = without_states_.number;
   free_.pop_back();
   begun_ = 0;
   if (each() > 1) {
@@ -133,7 +138,7 @@ void InLanes::note(const LaneEnd& end) {
   const bool to_the_end = end.fate == Fate::survived || end.fate == Fate::pinned;
   mine.fate = end.fate;
   mine.time = to_the_end ? options_.t_end : end.time.value();
-  if (options_.end_states) motion::take(mine.state, end.state);
+  if (options_.states) motion::take(mine.state, end.state);
   mine.hole = end.hole;
   mine.hits = end.hits;
   mine.last_wall = end.last_wall;

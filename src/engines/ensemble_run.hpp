@@ -324,9 +324,12 @@ class EnsembleListener : public Listener {
   /// A trajectory's.
   static void add_end(EnsembleResult& sum, std::uint64_t& contacts, const TrajectoryEnd& end,
                       const EnergyError& error) {
+    add_steps(sum, contacts, end);
+    sum.energy_error += error;
+  }
+  static void add_steps(EnsembleResult& sum, std::uint64_t& contacts, const TrajectoryEnd& end) {
     contacts += end.contacts;
     sum.steps += end.steps;
-    sum.energy_error += error;
   }
   /// Trajectories that are counted, with the decisions since the last ones.
   void add_done(EnsembleResult& sum, TrajectoryRange range) {

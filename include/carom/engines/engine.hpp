@@ -43,7 +43,7 @@ struct Trajectory {
 struct ParticleEnd {
   Fate fate = Fate::survived;
   double time = 0.0;  ///< the last time of the run where it survived or is pinned
-  State state;        ///< after the last event (EngineOptions::end_states)
+  State state;        ///< after the last event (EngineOptions::states)
   int hole = -1;      ///< a hole of the table, for `escaped`
   std::uint64_t hits = 0;
   int last_wall = -1;  ///< as World::last_wall
@@ -128,7 +128,7 @@ struct EngineOptions {
   const Surface* surface = nullptr;       ///< it gets the crossings of this
   std::size_t most_crossings = SIZE_MAX;  ///< of one flight
   bool energy = false;                    ///< as World::watch_energy
-  bool end_states = true;  ///< does it look at states of ends? Else free lanes leave them out
+  bool states = true;  ///< does it look at those of starts and ends? Else free lanes leave them out
   DecisionOptions decisions = {};
   std::optional<InstructionSet> lanes = widest_instruction_set();  ///< empty: one after the other
   /// A world of the system, which the engines of all threads share what is prepared with; null:

@@ -25,6 +25,7 @@ class EscapeListener : public engines::EnsembleListener<EscapeResult> {
                  const SurvivalCounts& none)
       : EnsembleListener(system, engine, thread),
         record_of_(system),
+        wants_records_(thread.wants_records()),
         none_(none),
         watch_(system, [this] { return thread_.stopped(); }) {}
 
@@ -45,12 +46,12 @@ class EscapeListener : public engines::EnsembleListener<EscapeResult> {
   void end(const Trajectory& t, const TrajectoryEnd& end) override {
     Block& block = *under_way_[t.slot];
     EscapeResult& sum = block.part;
-    engines::EnergiesSeen energies;
     if (watch_.watches()) {
-      energies = energies_[t.slot].end(t, end);
+      const engines::EnergiesSeen energies = energies_[t.slot].end(t, end);
       sum.counts.energy_change = larger(sum.counts.energy_change, energies.change);
+      sum.energy_error += energies.error;
     }
-    add_end(sum, sum.counts.contacts, end, energies.error);
+    if (hash_.of_states()) add_steps(sum, sum.counts.contacts, end);
     std::uint64_t hits = 0;
     for (std::size_t p = 0; p < end.particles.size(); ++p) {
       const ParticleEnd& particle = end.particles[p];
@@ -60,8 +61,7 @@ class EscapeListener : public engines::EnsembleListener<EscapeResult> {
       add_end(sum, index, particle.fate, particle.report,
               hash_(index, particle.fate, particle.time, particle.hits, particle.last_wall,
                     particle.state));
-      if (thread_.wants_records())
-        block.records.push_back(record_of_(index, t.starts[p], particle));
+      if (wants_records_) block.records.push_back(record_of_(index, t.starts[p], particle));
       hits += particle.hits;
     }
     thread_.report(1, hits);
@@ -88,6 +88,7 @@ class EscapeListener : public engines::EnsembleListener<EscapeResult> {
   }
 
   const engines::RecordMaker record_of_;
+  const bool wants_records_;
   const SurvivalCounts& none_;
   std::list<Block> blocks_;
   std::vector<std::list<Block>::iterator> under_way_;  ///< by slot of a trajectory
@@ -110,8 +111,8 @@ EscapeResult run_escape(const System& system, const EscapeOptions& options) {
   nothing.counts =
       SurvivalCounts(system.run.times, hole_names(*system.table).size(), system.quasi_random());
   EngineOptions engine_options{.t_end = system.run.t_max};
-  engine_options.end_states = (options.journal && options.journal->wants_records()) ||
-                              engines::ParticleHash(system).of_states();
+  engine_options.states = (options.journal && options.journal->wants_records()) ||
+                          engines::ParticleHash(system).of_states();
   return engines::fly_blocks<EscapeResult>(
       system, system, options, nothing, engine_options,
       [&](const Engine& engine, EscapeListener::Thread& thread) {

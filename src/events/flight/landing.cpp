@@ -65,14 +65,10 @@ Sign PieceTable::exactly_inward(int wall, double u, Vector v, DecisionCounts& co
 
 bool PieceTable::surely_inside(Vector point) const {
   if (!convex || enclosure.size() < 3) return false;
+  if (!(norm_1(point - curves.front().from) < enclosure.diameter())) return false;
   for (int i = 0; i < enclosure.size(); ++i) {
     const PreparedCurve& w = curves[at(i)];
-    const Vector chord = w.to - w.from, e = point - w.from;
-    // Each coordinate of e and chord errs by enclosure_rounding and its own last digit; products
-    // and difference 2u.
-    const double bound = (norm_1(chord) + norm_1(e)) * enclosure_rounding +
-                         4.1 * unit_roundoff * norm_1(chord) * norm_1(e);
-    if (!(geometry::cross(chord, e) > options.filter_inflation * bound)) return false;
+    if (!(geometry::cross(w.to - w.from, point - w.from) > inside_bound)) return false;
   }
   return true;
 }

@@ -329,6 +329,12 @@ void PieceTable::Preparation::find_enclosure(bool complement) {
   }
   made_.enclosure.set_diameter(1.01 * norm_1(box.high - box.low));
   made_.enclosure_rounding = 4.1 * unit_roundoff * made_.enclosure.diameter();
+  // In l1 norms no chord is longer than the diameter d, no way from a joint to a point longer than
+  // 2 d. Each of their coordinates errs by enclosure_rounding and its own last digit; products and
+  // difference by 2u.
+  const double d = made_.enclosure.diameter();
+  made_.inside_bound = made_.options.filter_inflation *
+                       (3.0 * d * made_.enclosure_rounding + 4.1 * unit_roundoff * d * 2.0 * d);
   // Half the error of side_of_flight, for the farthest joint.
   made_.side_bound =
       made_.options.filter_inflation * 1.005 * (start_error + made_.enclosure_rounding);

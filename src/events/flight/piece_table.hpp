@@ -184,7 +184,8 @@ struct PieceTable {
   std::span<const int> discs;
   bool convex = false;              ///< all walls are the enclosure: there is nothing in it
   double enclosure_rounding = 0.0;  ///< error of a joint's distance in it, if so
-  double side_bound = 0.0;  ///< … on which side of a line it is: by the l1 norm of velocity
+  double side_bound = 0.0;    ///< … on which side of a line it is: by the l1 norm of velocity
+  double inside_bound = 0.0;  ///< … and on which side of a chord points are, as surely_inside asks
   bool without_ellipses = false;
   /// Not convex, but of few walls that are segments or arcs with the domain inside: all of them, as
   /// the joints on the right of a line from a wall tell its exit; or empty.
