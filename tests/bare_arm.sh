@@ -19,7 +19,7 @@ make_arm() {
   say "an arm64 Debian in $arm"
   for package in "${build_packages[@]}" "${python_packages[@]}"; do
     case $package in
-      ca-certificates | cmake | g++ | help2man | ninja-build | *mpi* | python3-dev | *matplotlib) ;;
+      ca-certificates | cmake | g++ | help2man | ninja-build | *mpi* | python3-dev) ;;
       *) there+=("$package") ;;
     esac
   done
