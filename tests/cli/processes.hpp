@@ -6,7 +6,10 @@
 
 namespace carom {
 
-inline bool has_mpi() { return std::system("mpirun --version >/dev/null 2>&1") == 0; }
+/// Does the program know of ranks, and is mpirun there?
+inline bool has_mpi() {
+  return CAROM_HAS_MPI && std::system("mpirun --version >/dev/null 2>&1") == 0;
+}
 
 /// Goes before a command; 0: without mpirun.
 inline std::string ranks(int n) {

@@ -1,6 +1,7 @@
 """Short texts, values with errors, and hints for wrong names."""
 
 import copy
+import os
 import pickle
 import re
 import subprocess
@@ -11,6 +12,8 @@ import numpy
 import pytest
 
 import carom
+
+PYTHON = os.environ.get("CAROM_PYTHON", sys.executable)  # which an emulator may run
 
 
 @pytest.fixture(scope="module")
@@ -146,7 +149,7 @@ def test_samples_must_be_asked_for():
 def test_without_numpy_it_says_so(tmp_path):
     (tmp_path / "numpy.py").write_text("raise ImportError('no numpy')", encoding="utf-8")
     code = f"import sys; sys.path.insert(0, {str(tmp_path)!r}); import carom"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    done = subprocess.run([PYTHON, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 1 and done.stderr.strip().endswith(
         "ImportError: carom needs NumPy (Debian: python3-numpy; pip install numpy)"
     )

@@ -9,6 +9,7 @@ import pytest
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="/proc is Linux's")
 
+PYTHON = os.environ.get("CAROM_PYTHON", sys.executable)  # which an emulator may run
 BEGIN = """
 import carom
 def loaded():
@@ -33,7 +34,7 @@ print(carom.escape("stadium", trajectories=100).trajectories)
 
 def words_of(script, **environment):
     return subprocess.run(
-        [sys.executable, "-c", BEGIN + script],
+        [PYTHON, "-c", BEGIN + script],
         capture_output=True,
         text=True,
         check=True,
