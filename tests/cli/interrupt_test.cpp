@@ -8,7 +8,6 @@ namespace {
 
 // timeout and mpirun send it to the process, and to its group.
 TEST(Interrupt, SeveralTimesAtOnceIsOnce) {
-  if (CAROM_EMULATED) GTEST_SKIP() << "an emulator hears signals before the program does";
   const Shell shell;
   for (int i = 0; i < 4; ++i) {
     const Outcome o = shell(

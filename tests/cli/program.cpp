@@ -29,13 +29,18 @@ until_saved() {
 children_of() { cat /proc/$1/task/*/children | tr ' ' '\n' | sed '/^$/d' | sort -n; }
 until_listening() {
   until grep -qs '^SigCgt:.*[4-7c-f]...$' /proc/$pid/status; do kill -0 $pid 2>/dev/null || return 1; sleep 0.01; done
+  $listens_late
 }
 )sh";
+
+// An emulator handles signals from its start on, so that nothing tells when the program does.
+constexpr const char* listens_late =
+    CAROM_EMULATED ? "listens_late='sleep 5'; " : "listens_late=; ";
 
 }  // namespace
 
 Outcome Shell::operator()(const std::string& command) const {
-  const std::string script = std::string(functions) + "cd '" + folder() +
+  const std::string script = listens_late + std::string(functions) + "cd '" + folder() +
                              "'; carom='" CAROM_PROGRAM "'; {\n" + command +
                              "\n} >.out 2>.err </dev/null";
   const int raw = std::system(script.c_str());
