@@ -38,7 +38,8 @@ mkdir -p "$made/emulated"
 # What Debian chooses among when it is installed, libraries of linear algebra, has no name yet.
 cat >"$made/emulated/python3" <<PYTHON
 #!/bin/sh
-exec $emulator -E LD_LIBRARY_PATH=/usr/lib/aarch64-linux-gnu/blas:/usr/lib/aarch64-linux-gnu/lapack $arm/usr/bin/python3 "\$@"
+exec $emulator -E LD_LIBRARY_PATH=\${LD_LIBRARY_PATH:+\$LD_LIBRARY_PATH:}/usr/lib/aarch64-linux-gnu/blas:/usr/lib/aarch64-linux-gnu/lapack \
+  $arm/usr/bin/python3 "\$@"
 PYTHON
 chmod +x "$made/emulated/python3"
 
