@@ -94,7 +94,7 @@ const Archive archives[] = {
      "out.h5"},
     {"run-interrupted",
      "$carom run soft-lorentz --t-max 1e9 --set run.sample=5 -o a.h5 --quiet --json > json & "
-     "pid=$!; until_there a.h5; sleep 0.3; kill -INT $pid; wait $pid; "
+     "pid=$!; until_there a.h5; sleep 0.3; $listens_late; kill -INT $pid; wait $pid; "
      "awk '/\"t\":/ {print int($2) + 10}' json > end",
      {"a.h5"},
      run_on + "$(cat end)",
