@@ -25,8 +25,6 @@ template <FreeFlights::Alone alone>
   b.ahead = ahead;
   begin_off_joints(b);
   if constexpr (alone != Alone::on_lattice) b.flight.start_piece = b.state.wall;
-  if (alone == Alone::in_four && ahead.kind == Ahead::Kind::wall)
-    b.ahead.kappa = finder_.kappa_of_line(b.flight, ahead.piece);
   schedule(index, b);
 }
 

@@ -35,9 +35,9 @@ class HitFinder {
   }
   /// The first half of this: in a convex table with nothing in it, where the filter can tell.
   bool next_in_convex(const Flight& flight, Ahead& ahead, DecisionCounts& counts) const;
-  /// The same without field, off the joints of a table whose enclosure meets_four; without kappa.
+  /// The same without field, off the joints of a table whose enclosure meets_four; without kappa,
+  /// which of lines only holes ask for.
   bool next_in_four(const Flight& flight, Ahead& ahead, DecisionCounts& counts) const;
-  double kappa_of_line(const Flight& flight, int wall) const;
   /// The other half.
   void next_in_any(const Flight& flight, Ahead& ahead, DecisionCounts& counts);
   /// That where discs stand in a lattice's cell and touch none of its edges: a straight flight is
@@ -82,6 +82,7 @@ class HitFinder {
   bool filtered_among_discs(const Flight& flight, Ahead& ahead) const;
   bool line_in_enclosure(const Flight& flight, Ahead& ahead) const;
   bool line_to(const Flight& flight, int wall, Ahead& ahead) const;
+  double kappa_of_line(const Flight& flight, int wall) const;
   bool circle_in_enclosure(const Flight& flight, Ahead& ahead) const;
   Sign meets_one_disc(const Flight& flight, const Origin& origin, int& met, Quotient& at) const;
   int exit_of_enclosure(const Flight& flight, const Origin& origin) const;
